@@ -1,0 +1,1 @@
+"""Nonlinear dynamics of a spur gear pair with backlash and time-varying mesh stiffness."""

@@ -1,0 +1,173 @@
+"""The mesh stiffness as a function of time: any periodic staircase."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair._checks import check_choice, check_number
+
+Reading = Literal["printed", "swapped"]
+READINGS = ("printed", "swapped")
+
+
+@dataclass(frozen=True)
+class Rectangle:
+    """The article's description of a two-level wave: what `StiffnessWave.rectangular` was given."""
+
+    contact_ratio: float
+    a: float
+    b: float
+    reading: Reading
+
+
+@dataclass(frozen=True)
+class StiffnessWave:
+    """A periodic staircase: the mesh stiffness divided by its reference k_m.
+
+    Parameters
+    ----------
+    edges : sequence of float, shape (n,)
+        Fractions of the mesh period where each level starts: ``edges[0] == 0``, strictly
+        increasing, below 1.
+    levels : sequence of float, shape (n,)
+        Dimensionless stiffness from each edge to the next, positive.
+
+    Raises
+    ------
+    ValueError
+        Naming the offending edge or level and what is allowed.
+
+    Examples
+    --------
+    >>> wave = StiffnessWave(edges=(0.0, 0.25), levels=(2.0, 1.0))
+    >>> wave.mean
+    1.25
+    >>> wave(np.array([0.0, 0.3, 1.1]))
+    array([2., 1., 2.])
+    """
+
+    edges: tuple[float, ...]
+    levels: tuple[float, ...]
+    rectangle: Rectangle | None = field(default=None, kw_only=True, compare=False, repr=False)
+
+    def __init__(self, edges: Sequence[float], levels: Sequence[float]) -> None:
+        object.__setattr__(self, "edges", _numbers("edges", edges))
+        object.__setattr__(self, "levels", _numbers("levels", levels))
+        object.__setattr__(self, "rectangle", None)
+        self._check()
+
+    def _check(self) -> None:
+        edges, levels = self.edges, self.levels
+        if len(edges) == 0 or len(edges) != len(levels):
+            raise ValueError(
+                f"edges and levels must have the same length, at least 1; got {len(edges)} edges and {len(levels)} levels"
+            )
+        if edges[0] != 0.0:
+            raise ValueError(f"edges[0] must be 0 (the start of the mesh period), got {edges[0]}")
+        for i, (left, right) in enumerate(zip(edges, (*edges[1:], 1.0), strict=True)):
+            if not left < right:
+                raise ValueError(
+                    f"edges must increase strictly and stay below 1; got edges[{i}] = {left} followed by {right}"
+                )
+        for i, level in enumerate(levels):
+            check_number(f"levels[{i}]", level, above=0.0)
+
+    @classmethod
+    def rectangular(
+        cls,
+        contact_ratio: float = 1.68,
+        a: float = 0.116,
+        b: float = 0.414,
+        reading: Reading = "printed",
+    ) -> StiffnessWave:
+        """The article's rectangle: two pairs in contact, then one.
+
+        Parameters
+        ----------
+        contact_ratio : float
+            epsilon, in (1, 2).
+        a : float
+            Stiffness added in double contact, relative to k_m; above -1.
+        b : float
+            Stiffness missing in single contact, relative to k_m; below 1.
+        reading : {"printed", "swapped"}
+            ``"printed"``: 1 + a on the first (epsilon - 1) of the period, 1 - b on the rest.
+            ``"swapped"``: 1 + a on the first (2 - epsilon) of the period, 1 - b on the rest.
+
+        Returns
+        -------
+        StiffnessWave
+            With `rectangle` set, so that `contact_ratio`, `a` and `b` can be swept.
+
+        Notes
+        -----
+        The article, item K2. The mean is ``1 + a (eps - 1) - b (2 - eps)`` as printed, which the
+        article's own numbers do not make 1.
+
+        Examples
+        --------
+        >>> StiffnessWave.rectangular().levels
+        (1.116, 0.5860000000000001)
+        >>> round(StiffnessWave.rectangular().mean, 5)
+        0.9464
+        """
+        contact_ratio = check_number("contact_ratio", contact_ratio, above=1.0, below=2.0)
+        a = check_number("a", a, above=-1.0)
+        b = check_number("b", b, below=1.0)
+        check_choice("reading", reading, READINGS)
+        stiff = contact_ratio - 1.0 if reading == "printed" else 2.0 - contact_ratio
+        wave = cls(edges=(0.0, stiff), levels=(1.0 + a, 1.0 - b))
+        object.__setattr__(wave, "rectangle", Rectangle(contact_ratio, a, b, reading))
+        return wave
+
+    @property
+    def durations(self) -> NDArray[np.float64]:
+        """Fractions of the mesh period that each level lasts, shape (n,); they sum to 1."""
+        return np.diff([*self.edges, 1.0])
+
+    @property
+    def mean(self) -> float:
+        """Mean over one mesh period, relative to k_m (dimensionless)."""
+        return float(self.durations @ np.asarray(self.levels))
+
+    def __call__(self, fraction: ArrayLike) -> NDArray[np.float64]:
+        """Stiffness at a time given in mesh periods (any real number, any shape)."""
+        phase = np.mod(np.asarray(fraction, dtype=float), 1.0)
+        return np.asarray(self.levels)[np.searchsorted(self.edges, phase, side="right") - 1]
+
+    def harmonics(self, n: int) -> NDArray[np.complex128]:
+        """Fourier coefficients c_0 .. c_n with ``k = sum of c_m exp(2 pi i m t / T)`` over all integers m.
+
+        Parameters
+        ----------
+        n : int
+            Highest harmonic of the mesh frequency, at least 0.
+
+        Returns
+        -------
+        ndarray of complex, shape (n + 1,)
+            Dimensionless; c_0 is the mean, and the amplitude of harmonic m is ``2 |c_m|``.
+
+        Examples
+        --------
+        >>> np.round(2 * np.abs(StiffnessWave.rectangular().harmonics(2)[1:]), 4)
+        array([0.2848, 0.1527])
+        """
+        check_number("n", n, at_least=0)
+        m = np.arange(1, int(n) + 1)[:, None]
+        ends = np.array([*self.edges, 1.0])
+        turns = np.exp(-2j * np.pi * m * ends)
+        steps = (turns[:, :-1] - turns[:, 1:]) / (2j * np.pi * m)
+        return np.concatenate([[self.mean], steps @ np.asarray(self.levels)])
+
+
+def _numbers(name: str, values: Sequence[float]) -> tuple[float, ...]:
+    array = np.asarray(values)
+    if array.ndim != 1:
+        raise ValueError(f"{name} must be a sequence of numbers (one dimension), got shape {array.shape}")
+    return tuple(check_number(f"{name}[{i}]", value) for i, value in enumerate(array.tolist()))
