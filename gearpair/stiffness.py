@@ -36,6 +36,8 @@ class StiffnessWave:
         increasing, below 1.
     levels : sequence of float, shape (n,)
         Dimensionless stiffness from each edge to the next, positive.
+    rectangle : Rectangle, optional
+        Set by `rectangular`: the contact ratio, a and b that the two levels came from.
 
     Raises
     ------
@@ -53,16 +55,12 @@ class StiffnessWave:
 
     edges: tuple[float, ...]
     levels: tuple[float, ...]
-    rectangle: Rectangle | None = field(default=None, kw_only=True, compare=False, repr=False)
+    rectangle: Rectangle | None = field(default=None, compare=False, repr=False)
 
-    def __init__(self, edges: Sequence[float], levels: Sequence[float]) -> None:
-        object.__setattr__(self, "edges", _numbers("edges", edges))
-        object.__setattr__(self, "levels", _numbers("levels", levels))
-        object.__setattr__(self, "rectangle", None)
-        self._check()
-
-    def _check(self) -> None:
-        edges, levels = self.edges, self.levels
+    def __post_init__(self) -> None:
+        edges, levels = _numbers("edges", self.edges), _numbers("levels", self.levels)
+        object.__setattr__(self, "edges", edges)
+        object.__setattr__(self, "levels", levels)
         if len(edges) == 0 or len(edges) != len(levels):
             raise ValueError(
                 f"edges and levels must have the same length, at least 1; got {len(edges)} edges and {len(levels)} levels"
@@ -121,9 +119,7 @@ class StiffnessWave:
         b = check_number("b", b, below=1.0)
         check_choice("reading", reading, READINGS)
         stiff = contact_ratio - 1.0 if reading == "printed" else 2.0 - contact_ratio
-        wave = cls(edges=(0.0, stiff), levels=(1.0 + a, 1.0 - b))
-        object.__setattr__(wave, "rectangle", Rectangle(contact_ratio, a, b, reading))
-        return wave
+        return cls((0.0, stiff), (1.0 + a, 1.0 - b), Rectangle(contact_ratio, a, b, reading))
 
     @property
     def durations(self) -> NDArray[np.float64]:
@@ -156,7 +152,7 @@ class StiffnessWave:
         Examples
         --------
         >>> np.round(2 * np.abs(StiffnessWave.rectangular().harmonics(2)[1:]), 4)
-        array([0.2848, 0.1527])
+        array([0.2849, 0.1526])
         """
         check_number("n", n, at_least=0)
         m = np.arange(1, int(n) + 1)[:, None]
