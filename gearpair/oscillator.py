@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_number
-from gearpair._flow import Parameters
+from gearpair._flow.cells import Cells, Parameters, build_cells
 from gearpair.stiffness import StiffnessWave
 
 LARGEST_DAMPING_RATIO = 100.0
@@ -126,9 +128,15 @@ class Oscillator:
             raise ValueError(f"{name} can be changed only where the stiffness wave is rectangular, got {self.stiffness!r}")
         raise ValueError(f"unknown parameter {name!r}; the parameters are {', '.join(self.parameters)}")
 
-    @property
-    def _flow_parameters(self) -> Parameters:
-        return Parameters(
+    def force(self, tau: ArrayLike) -> NDArray[np.float64]:
+        """The right-hand side ``F_m + F_ah Omega^2 sin(Omega tau + phi)`` at times `tau` (any shape)."""
+        angle = self.mesh_frequency * np.asarray(tau, dtype=float) + self.error_phase
+        return self.mean_force + self.error_amplitude * self.mesh_frequency**2 * np.sin(angle)
+
+    @cached_property
+    def _cells(self) -> Cells:
+        """The tables that the kernels march over."""
+        p = Parameters(
             self.mean_force,
             self.error_amplitude,
             self.error_phase,
@@ -137,6 +145,7 @@ class Oscillator:
             np.array([*self.stiffness.edges, 1.0]),
             np.array(self.stiffness.levels),
         )
+        return build_cells(p)
 
 
 SCALARS = tuple(f.name for f in fields(Oscillator) if f.name != "stiffness")

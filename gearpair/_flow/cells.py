@@ -21,6 +21,11 @@ COLUMNS = 9
 WIDTH, START, SINE, COSINE = range(4)
 
 
+# Beyond this the backlash is below a millionth of the motion, which the always-in-contact equation then
+# governs: where that is parametrically unstable, the motion never comes back.
+ESCAPE_RADIUS = 1e6
+
+
 class Parameters(NamedTuple):
     """The oscillator as plain floats and arrays (numba rejects dataclasses)."""
 
@@ -47,6 +52,7 @@ class Cells(NamedTuple):
     stiffness: np.ndarray  # (n_levels,)
     period: float
     damping_ratio: float
+    escape_radius: float  # |X| + |X'| from which no motion comes back
 
 
 @kernel
@@ -77,6 +83,7 @@ def build_cells(p):
         p.levels,
         2.0 * np.pi / p.mesh_frequency,
         p.damping_ratio,
+        ESCAPE_RADIUS if contact_growth(p) > 1.0 else np.inf,
     )
     j = 0
     for i in range(n_levels):
@@ -100,6 +107,32 @@ def build_cells(p):
                 fill_map(cells, j, region)
             j += 1
     return cells
+
+
+@kernel
+def contact_growth(p):
+    """The larger multiplier's modulus of the always-in-contact motion over a mesh period (Floquet).
+
+    Its determinant is exp(-2 zeta T), so the trace decides.
+    """
+    xx, xv, vx, vv = 1.0, 0.0, 0.0, 1.0
+    zeta = p.damping_ratio
+    period = 2.0 * np.pi / p.mesh_frequency
+    for i in range(p.levels.size):
+        span = (p.edges[i + 1] - p.edges[i]) * period
+        # Without the common factor exp(-zeta span), which is put back at the end.
+        square = p.levels[i] - zeta * zeta
+        rate = np.sqrt(abs(square))
+        if square > 0.0:
+            c, s, ds = np.cos(rate * span), np.sin(rate * span) / rate, -square
+        elif square < 0.0:
+            c, s, ds = np.cosh(rate * span), np.sinh(rate * span) / rate, -square
+        else:
+            c, s, ds = 1.0, span, 0.0
+        a, b, e, d = c + zeta * s, s, (ds - zeta * zeta) * s, c - zeta * s
+        xx, xv, vx, vv = a * xx + b * vx, a * xv + b * vv, e * xx + d * vx, e * xv + d * vv
+    half = 0.5 * abs(xx + vv)
+    return (half + np.sqrt(max(half * half - 1.0, 0.0))) * np.exp(-zeta * period)
 
 
 @kernel

@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from ._kernel import kernel
+from numba import prange
+
+from ._kernel import kernel, parallel_kernel
 from .cells import S0, SINE, SV, SX, V0, VV, VX, WIDTH, X0, XV, XX, COSINE
 from .closed_form import TERMS, evaluate, expand
 from .event_search import INSIDE, UNDECIDED, first_exit, region_at
@@ -10,9 +12,6 @@ from .event_search import INSIDE, UNDECIDED, first_exit, region_at
 # Status of a march.
 OK, ESCAPED, TOO_MANY_EVENTS, EVENT_UNDECIDED = 0, 1, 2, 3
 
-# Beyond this the backlash is below a millionth of the motion, which the always-in-contact equation then
-# governs: where that is parametrically unstable, the motion never comes back.
-ESCAPE_RADIUS = 1e6
 MAX_EVENTS_PER_PERIOD = 10_000
 
 
@@ -93,25 +92,35 @@ def cross_cell(cells, j, x, v, region, series):
 
 
 @kernel
+def follow_cell(cells, j, x, v, region):
+    """The state at the end of cell `j` if the motion certainly stays in `region`: (certain, x, v, low, high).
+
+    ``low`` and ``high`` bound X over the cell; the certificate is the first of `event_search`.
+    """
+    row = cells.maps[j, region + 1]
+    x1 = row[XX] * x + (row[XV] * v + row[X0])
+    v1 = row[VX] * x + (row[VV] * v + row[V0])
+    third = cells.clock[j, WIDTH] / 3.0
+    b1, b2 = x + third * v, x1 - third * v1
+    spread = row[SX] * abs(x - region) + (row[SV] * abs(v) + row[S0])
+    low = min(min(x, b1), min(b2, x1)) - spread
+    high = max(max(x, b1), max(b2, x1)) + spread
+    certain = (region < 0 or low >= 2.0 * region - 1.0) and (region > 0 or high <= 2.0 * region + 1.0)
+    return certain, x1, v1, low, high
+
+
+@kernel
 def march(cells, x, v, n_periods, series):
     """The state after `n_periods` mesh periods from (x, v) at the start of one: (status, x, v).
 
     Stops early, with the state reached, when the status is not OK.
     """
     region = first_region(cells, x, v)
-    maps = cells.maps
     for _ in range(n_periods):
         events = 0
-        for j in range(maps.shape[0]):
-            row = maps[j, region + 1]
-            x1 = row[XX] * x + (row[XV] * v + row[X0])
-            v1 = row[VX] * x + (row[VV] * v + row[V0])
-            third = cells.clock[j, WIDTH] / 3.0
-            b1, b2 = x + third * v, x1 - third * v1
-            spread = row[SX] * abs(x - region) + (row[SV] * abs(v) + row[S0])
-            lowest = min(min(x, b1), min(b2, x1)) - spread
-            highest = max(max(x, b1), max(b2, x1)) + spread
-            if (region < 0 or lowest >= 2.0 * region - 1.0) and (region > 0 or highest <= 1.0 + 2.0 * region):
+        for j in range(cells.level.size):
+            certain, x1, v1, _low, _high = follow_cell(cells, j, x, v, region)
+            if certain:
                 x, v = x1, v1
                 continue
             status, n, x, v, region = cross_cell(cells, j, x, v, region, series)
@@ -120,6 +129,14 @@ def march(cells, x, v, n_periods, series):
                 return status, x, v
             if events > MAX_EVENTS_PER_PERIOD:
                 return TOO_MANY_EVENTS, x, v
-        if not abs(x) + abs(v) < ESCAPE_RADIUS:
+        if not abs(x) + abs(v) <= cells.escape_radius:
             return ESCAPED, x, v
     return OK, x, v
+
+
+@parallel_kernel
+def march_starts(cells, starts, n_periods, ends, status):
+    """`march` from each row of `starts` (n, 2) in parallel, filling `ends` (n, 2) and `status` (n,)."""
+    for i in prange(starts.shape[0]):
+        series = np.empty(TERMS)
+        status[i], ends[i, 0], ends[i, 1] = march(cells, starts[i, 0], starts[i, 1], n_periods, series)
