@@ -10,15 +10,17 @@ from .cells import Parameters, build_cells
 from .closed_form import TERMS
 from .march import ESCAPED, OK, march
 from .observe import extremes
-from .tangent import exponents, newton
+from .tangent import exponents, march_tangent, newton
 
-PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED = 0, 1, 2, 3, 4
+PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED, NOT_RUN = 0, 1, 2, 3, 4, 5
 
 # A return this close, relative to max(1, |X|, |X'|), is worth a Newton search; the stable orbit it
 # finds must lie within CAPTURED of the motion.
 RETURNED, CAPTURED = 1e-8, 1e-6
 # After the whole transient slower motions count too: a stable orbit within NEAR that the motion approaches.
 NEAR = 1e-2
+# Section points of one cycle closer than this are one point: its period is shorter than it returned with.
+SAME_POINT = 1e-9
 # An exponent is resolved when it exceeds this many standard errors.
 RESOLVED = 4.0
 EXPONENT_BLOCKS = 20
@@ -37,7 +39,7 @@ class Lanes(NamedTuple):
 class Settled(NamedTuple):
     """What became of each lane; the arrays have one row a lane."""
 
-    status: np.ndarray  # (n,) PERIODIC ... CAPPED
+    status: np.ndarray  # (n,) PERIODIC ... NOT_RUN
     period: np.ndarray  # (n,) 0 unless PERIODIC
     points: np.ndarray  # (n, n_samples, 2) successive section points; a cycle starts at its smallest X
     monodromy: np.ndarray  # (n, 2, 2) nan unless PERIODIC
@@ -77,8 +79,21 @@ def find_return(cells, x, v, max_period, closeness, capture, m, series):
         if distance(x, v, x0, v0) <= closeness:
             converged, xs, vs, _residual = newton(cells, x, v, period, m, series)
             if converged and spectral_radius(m) < 1.0 and distance(x, v, xs, vs) <= capture:
-                return OK, period, x, v, xs, vs
+                return OK, minimal_period(cells, xs, vs, period, m, series), x, v, xs, vs
     return OK, 0, x, v, x, v
+
+
+@kernel
+def minimal_period(cells, xs, vs, period, m, series):
+    """The shortest period of the cycle through (xs, vs); `m` becomes its monodromy."""
+    x, v = xs, vs
+    for shorter in range(1, period):
+        _status, x, v = march(cells, x, v, 1, series)
+        if period % shorter == 0 and distance(x, v, xs, vs) <= SAME_POINT:
+            m[0, 0], m[0, 1], m[1, 0], m[1, 1] = 1.0, 0.0, 0.0, 1.0
+            march_tangent(cells, xs, vs, shorter, m, series)
+            return shorter
+    return period
 
 
 @kernel
