@@ -1,1 +1,5 @@
 """Nonlinear dynamics of a spur gear pair with backlash and time-varying mesh stiffness."""
+
+from gearpair.stiffness import StiffnessWave
+
+__all__ = ["StiffnessWave"]
