@@ -1,0 +1,57 @@
+# Two commands do everything, each from a fresh clone with Python 3.11+ and make:
+#   make book    execute the chapters and build the site at _build/html/index.html
+#   make test    run every test
+# Others:
+#   make accept  re-execute the source notebooks and store their new outputs (review them with git diff)
+#   make lock    re-make requirements.lock from pyproject.toml
+#   make clean   remove what was generated (the environment in .venv stays)
+# Choose an interpreter with PYTHON=python3.12; pass options to pytest with PYTEST_ARGS="-k layers".
+
+.DEFAULT_GOAL := help
+.PHONY: help book test accept lock clean
+.DELETE_ON_ERROR:
+
+VERSION_CHECK := import sys; sys.exit(sys.version_info < (3, 11))
+PYTHON ?= $(shell for p in python3 python3.11 python3.12 python3.13 python3.14; do \
+	$$p -c '$(VERSION_CHECK)' >/dev/null 2>&1 && { echo $$p; break; }; done)
+PYTEST_ARGS ?=
+
+VENV := .venv
+READY := $(VENV)/.ready
+RUN := $(VENV)/bin/python
+
+help:
+	@sed -n 's/^# \{0,1\}//p' Makefile
+
+book: $(READY)
+	@$(RUN) -m gearpair book
+
+test: $(READY)
+	@$(RUN) -m pytest $(PYTEST_ARGS)
+
+accept: $(READY)
+	@$(RUN) -m gearpair accept
+
+$(READY): requirements.lock pyproject.toml
+	@$(if $(PYTHON),$(PYTHON),false) -c '$(VERSION_CHECK)' || { \
+		echo "gearpair needs Python 3.11 or newer; found $$($(or $(PYTHON),python3) --version 2>&1)." \
+		"Install one, or name it: make PYTHON=/path/to/python3.11" >&2; exit 1; }
+	@echo "Setting up $(VENV) from requirements.lock (a few minutes the first time)"
+	@$(PYTHON) -m venv $(VENV)
+	@$(RUN) -m pip install --quiet --disable-pip-version-check --requirement requirements.lock
+	@$(RUN) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@$(RUN) -c 'import matplotlib.font_manager'
+	@touch $@
+
+# The lock holds for every platform and for Python 3.11 and newer; pins that are already in it are kept where they
+# still fit (delete the file first to take the newest of everything).
+lock:
+	@$(PYTHON) -m venv $(VENV)-lock
+	@$(VENV)-lock/bin/python -m pip install --quiet --disable-pip-version-check uv
+	$(VENV)-lock/bin/uv pip compile pyproject.toml --extra book --extra test --universal --python-version 3.11 \
+		--quiet --no-emit-index-url --no-emit-find-links --annotation-style line \
+		--custom-compile-command "make lock" --output-file requirements.lock
+
+clean:
+	rm -rf _build book/chapters .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+	find gearpair tests -name __pycache__ -type d -prune -exec rm -rf {} +

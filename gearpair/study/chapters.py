@@ -1,0 +1,234 @@
+"""What a chapter declares: its parameters, read from the cell tagged ``parameters``.
+
+That cell is the chapter's schema. Each of its statements is an annotated literal with a comment::
+
+    damping_ratio: float = 0.02  # zeta, at least 0
+
+and nothing else may stand in it.
+"""
+
+from __future__ import annotations
+
+import ast
+import io
+import tokenize
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import nbformat
+import yaml
+
+from gearpair.study.errors import StudyError
+
+TAG = "parameters"
+SCALARS = {"float": "a number", "int": "a whole number", "bool": "true or false", "str": "a text"}
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One parameter of a chapter.
+
+    Parameters
+    ----------
+    name, annotation : str
+        As written in the cell; the annotation is ``float``, ``int``, ``bool``, ``str``, a ``list[...]`` of one of
+        these, or one of these ``| None``.
+    default : object
+        The literal that stands in the cell.
+    comment : str
+        What the parameter is: the comment on its line.
+    """
+
+    name: str
+    annotation: str
+    default: Any
+    comment: str
+
+    @property
+    def allowed(self) -> str:
+        """The annotation in words.
+
+        Examples
+        --------
+        >>> Parameter("shown", "list[float] | None", None, "frequencies").allowed
+        'a list of numbers such as [1, 2], or none'
+        """
+        inner, optional = _without_none(self.annotation)
+        if item := _item_type(inner):
+            word = f"a list of {SCALARS[item].split(' ', 1)[1]}s such as [1, 2]"
+        else:
+            word = SCALARS[inner]
+        return f"{word}, or none" if optional else word
+
+    def parse(self, text: str) -> Any:
+        """The value that `text`, typed on a command line, stands for.
+
+        Raises
+        ------
+        ValueError
+            If it is not of the declared type.
+
+        Examples
+        --------
+        >>> Parameter("damping_ratio", "float", 0.02, "zeta").parse("1e-3")
+        0.001
+        >>> Parameter("gear_teeth", "int", 34, "z2").parse("34.5")
+        Traceback (most recent call last):
+            ...
+        ValueError: not a whole number
+        """
+        inner, optional = _without_none(self.annotation)
+        if optional and text.strip().lower() in {"none", "null", "~", ""}:
+            return None
+        if inner == "str":
+            return text
+        try:
+            value = yaml.safe_load(text)
+        except yaml.YAMLError:
+            value = text
+        if item := _item_type(inner):
+            if not isinstance(value, list):
+                raise ValueError("not a list")
+            return [_scalar(item, element) for element in value]
+        return _scalar(inner, value)
+
+
+def _scalar(kind: str, value: Any) -> Any:
+    """`value` as `kind`; YAML reads 1e-3 as a text, so a text is tried as a number."""
+    if kind == "float" and isinstance(value, int | float | str) and not isinstance(value, bool):
+        return float(value)
+    if kind == "int" and isinstance(value, int) and not isinstance(value, bool):
+        return value
+    if kind == "bool" and isinstance(value, bool):
+        return value
+    if kind == "str" and isinstance(value, str):
+        return value
+    raise ValueError(f"not {SCALARS[kind]}")
+
+
+def _without_none(annotation: str) -> tuple[str, bool]:
+    parts = [part.strip() for part in annotation.split("|")]
+    kept = [part for part in parts if part != "None"]
+    return " | ".join(kept), len(kept) < len(parts)
+
+
+def _item_type(annotation: str) -> str | None:
+    inside = annotation.removeprefix("list[").removesuffix("]")
+    return inside if annotation == f"list[{inside}]" and inside in SCALARS else None
+
+
+def _matches(annotation: str, value: Any) -> bool:
+    """Whether a default is of its declared type (a whole number will do for a float)."""
+    inner, optional = _without_none(annotation)
+    if value is None:
+        return optional
+    try:
+        if item := _item_type(inner):
+            return isinstance(value, list) and all(_matches(item, element) for element in value)
+        return not (inner == "float" and isinstance(value, str)) and _scalar(inner, value) is not None
+    except ValueError:
+        return False
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """A parameterised notebook and what it declares."""
+
+    path: Path
+    title: str
+    parameters: tuple[Parameter, ...]
+
+    @property
+    def name(self) -> str:
+        """How the command line calls it: the notebook's file name without its suffix."""
+        return self.path.stem
+
+    def parse(self, given: list[tuple[str, str]]) -> dict[str, Any]:
+        """Values for the names and texts given, checked against the schema.
+
+        Raises
+        ------
+        StudyError
+            Naming the first parameter that is unknown or of the wrong type, the value, and what is allowed.
+        """
+        known = {parameter.name: parameter for parameter in self.parameters}
+        values: dict[str, Any] = {}
+        for name, text in given:
+            if name not in known:
+                raise StudyError(f"{self.name} has no parameter {name!r}; it has {', '.join(known)}")
+            try:
+                values[name] = known[name].parse(text)
+            except ValueError:
+                raise StudyError(f"{name} of {self.name} must be {known[name].allowed}, got {text!r}") from None
+        return values
+
+
+def read_chapter(path: Path) -> Chapter:
+    """Read a chapter's title and schema.
+
+    Raises
+    ------
+    StudyError
+        If the file is not a notebook, or its parameters cell is missing, doubled or not made of annotated literals
+        with a comment each.
+    """
+    try:
+        notebook = nbformat.read(path, as_version=4)
+    except FileNotFoundError:
+        raise StudyError(f"there is no notebook {path}") from None
+    except Exception as error:
+        raise StudyError(f"{path} is not a readable notebook: {str(error).splitlines()[0]}") from error
+    tagged = [cell for cell in notebook.cells if TAG in cell.metadata.get("tags", [])]
+    if len(tagged) != 1:
+        raise StudyError(f"{path} must have exactly one cell tagged {TAG!r}; it has {len(tagged)}")
+    return Chapter(path, _title(notebook, path), tuple(read_parameters(tagged[0].source, str(path))))
+
+
+def read_parameters(source: str, where: str = "the parameters cell") -> list[Parameter]:
+    """Parameters declared by the text of a parameters cell.
+
+    Examples
+    --------
+    >>> read_parameters("damping_ratio: float = 0.02  # zeta")
+    [Parameter(name='damping_ratio', annotation='float', default=0.02, comment='zeta')]
+    """
+    try:
+        statements = ast.parse(source).body
+    except SyntaxError as error:
+        raise StudyError(f"{where}: the parameters cell is not Python: {error}") from error
+    comments = _comments(source)
+    found = []
+    for statement in statements:
+        text = ast.unparse(statement)
+        if not (isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name) and statement.value):
+            raise StudyError(f"{where}: {text!r} must be an annotated literal such as 'a: float = 0.1  # what it is'")
+        name, annotation = statement.target.id, ast.unparse(statement.annotation)
+        inner, _ = _without_none(annotation)
+        if inner not in SCALARS and _item_type(inner) is None:
+            raise StudyError(f"{where}: {name} has type {annotation}; allowed are {', '.join(SCALARS)} and list[...]")
+        try:
+            default = ast.literal_eval(statement.value)
+        except ValueError:
+            raise StudyError(f"{where}: {text!r} must have a literal for its default") from None
+        if not _matches(annotation, default):
+            raise StudyError(f"{where}: the default of {name}, {default!r}, is not {annotation}")
+        comment = comments.get(statement.end_lineno or 0)
+        if not comment:
+            raise StudyError(f"{where}: {name} has no comment that says what it is")
+        found.append(Parameter(name, annotation, default, comment))
+    return found
+
+
+def _comments(source: str) -> dict[int, str]:
+    tokens = tokenize.generate_tokens(io.StringIO(source).readline)
+    return {t.start[0]: t.string.lstrip("# ").strip() for t in tokens if t.type == tokenize.COMMENT}
+
+
+def _title(notebook: nbformat.NotebookNode, path: Path) -> str:
+    for cell in notebook.cells:
+        if cell.cell_type == "markdown":
+            for line in cell.source.splitlines():
+                if line.startswith("# "):
+                    return str(line[2:].strip())
+    raise StudyError(f"{path} has no title: no markdown line that starts with '# '")
