@@ -4,6 +4,7 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 """
 
 from gearpair.batches import Status
+from gearpair.comparison import apparent_period, runge_kutta_section, runge_kutta_sweep
 from gearpair.impacts import ImpactState, impact_state
 from gearpair.initial_conditions import basins
 from gearpair.maps import parameter_map
@@ -23,9 +24,12 @@ __all__ = [
     "SteadyState",
     "StiffnessWave",
     "Trajectory",
+    "apparent_period",
     "basins",
     "impact_state",
     "parameter_map",
+    "runge_kutta_section",
+    "runge_kutta_sweep",
     "spectrum",
     "steady_state",
     "stroboscopic_map",
