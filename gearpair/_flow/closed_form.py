@@ -83,3 +83,13 @@ def evaluate(series, t):
         dp = dp * t + p
         p = p * t + series[n]
     return p, dp, 2.0 * half_ddp
+
+
+@kernel
+def evaluate_jerk(series, t):
+    """Value and first three derivatives of a power series at t."""
+    p, dp, ddp = evaluate(series, t)
+    dddp = 0.0
+    for n in range(DEGREE, 2, -1):
+        dddp = dddp * t + n * (n - 1) * (n - 2) * series[n]
+    return p, dp, ddp, dddp

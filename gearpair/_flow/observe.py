@@ -3,12 +3,12 @@
 import numpy as np
 
 from ._kernel import kernel
-from .cells import START, WIDTH
-from .closed_form import TERMS, evaluate
-from .event_search import INSIDE, ROUNDING, UNDECIDED, certified_step
+from .cells import START, WIDTH, fourth_derivative_bound
+from .closed_form import TERMS, evaluate, evaluate_jerk
+from .event_search import INSIDE, ROUNDING, UNDECIDED, longest_step
 from .march import (
-    EVENT_UNDECIDED,
     ESCAPED,
+    EVENT_UNDECIDED,
     MAX_EVENTS_PER_PERIOD,
     OK,
     TOO_MANY_EVENTS,
@@ -29,24 +29,20 @@ def segment_extremes(series, end, low, high):
     """
     p, _dp, _ddp = evaluate(series, end)
     low, high = min(low, min(series[0], p)), max(high, max(series[0], p))
-    bend = 0.0  # a bound of |p'''|
-    scale = abs(series[1])  # of the slope's terms, for its rounding
-    for n in range(TERMS - 1, 1, -1):
-        bend = bend * end + (n * (n - 1) * (n - 2) * abs(series[n]) if n > 2 else 0.0)
-        scale += n * abs(series[n])
-    if bend == 0.0:
-        bend = ROUNDING
-    tiny = ROUNDING * max(scale, 1e-300)
-    least = np.sqrt(2.0 * tiny / bend)
+    fourth = fourth_derivative_bound(series, end)
+    tiny = 0.0  # rounding of the slope
+    for n in range(TERMS - 1, 0, -1):
+        tiny += ROUNDING * n * abs(series[n])
     t = 0.0
     for _ in range(MAX_SLOPE_STEPS):
-        p, dp, ddp = evaluate(series, t)
-        if abs(dp) <= tiny:
+        p, u, a, j = evaluate_jerk(series, t)
+        if u < 0.0:
+            u, a, j = -u, -a, -j
+        if u <= tiny:  # a root: move on by a step that cannot pass another by more than rounding
             low, high = min(low, p), max(high, p)
-            t += least
-            continue
-        rate = ddp if dp > 0.0 else -ddp
-        t += max(certified_step(abs(dp), rate, bend), ROUNDING)
+            t += np.sqrt(tiny / (abs(j) + fourth + ROUNDING))
+        # The slope's distance from zero is u >= 0, its next derivatives a, j and one of at most `fourth`.
+        t += longest_step(max(u - tiny, 0.0), a, j, -fourth, 0.0, end - t)
         if t >= end:
             break
     return low, high
