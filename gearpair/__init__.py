@@ -4,6 +4,7 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 """
 
 from gearpair.batches import Status
+from gearpair.drive import GearDrive
 from gearpair.impacts import ImpactState, impact_state
 from gearpair.initial_conditions import basins
 from gearpair.maps import parameter_map
@@ -15,6 +16,7 @@ from gearpair.stiffness import StiffnessWave
 from gearpair.sweeps import sweep
 
 __all__ = [
+    "GearDrive",
     "ImpactState",
     "Impacts",
     "Oscillator",
