@@ -4,6 +4,8 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 """
 
 from gearpair.batches import Status
+from gearpair.bifurcation_curves import BifurcationCurve, continue_bifurcation
+from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit, find_branches
 from gearpair.drive import GearDrive
 from gearpair.exponents import lyapunov_exponents
 from gearpair.impacts import ImpactState, impact_state
@@ -18,18 +20,30 @@ from gearpair.stiffness import StiffnessWave
 from gearpair.sweeps import sweep
 
 __all__ = [
+    "Bifurcation",
+    "BifurcationCurve",
+    "Branch",
     "GearDrive",
     "ImpactState",
     "Impacts",
+    "NewtonStatus",
     "Oscillator",
+    "PeriodicOrbit",
     "Spectrum",
     "Status",
     "SteadyState",
     "StiffnessWave",
     "Trajectory",
     "basins",
+    "continue_bifurcation",
+    "continue_orbit",
+    "doubled_orbit",
+    "find_branches",
+    "find_orbits",
     "impact_state",
+    "lyapunov_exponents",
     "parameter_map",
+    "periodic_orbit",
     "spectrum",
     "steady_state",
     "stroboscopic_map",
