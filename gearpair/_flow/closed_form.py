@@ -1,0 +1,85 @@
+"""The closed form of one linear piece of the motion.
+
+Between two events the equation is linear with constant coefficients,
+
+    X'' + 2 zeta X' + kappa (X - s) = F_m + A sin(theta + Omega h),    A = F_ah Omega^2,
+
+with (kappa, s) = (k, 1) in drive-side contact, (k, -1) in coast-side contact and (0, 0) in free
+flight. Its solution is an entire function of the elapsed time h, linear in the five numbers
+(X - s, X', F_m, A sin theta, A cos theta) at h = 0. On a *cell*, a piece of the mesh period of width w
+over which no rate of the system turns by more than `REACH`, its power series in t = h / w has converged
+to below rounding at `DEGREE`. So one formula serves every case: the textbook's sines and
+exponentials divide by zero at resonance, at critical damping and at zeta = 0; their series does not.
+"""
+
+import numpy as np
+
+from ._kernel import kernel
+
+DEGREE = 15
+TERMS = DEGREE + 1
+REACH = 0.6  # REACH**TERMS / TERMS! = 1e-17: the first neglected term
+
+
+@kernel
+def fastest_rate(kappa: float, zeta: float, omega: float) -> float:
+    """The largest rate of a linear piece: forcing frequency or modulus of a characteristic root."""
+    if zeta * zeta > kappa:
+        root = zeta + np.sqrt(zeta * zeta - kappa)
+    else:
+        root = np.sqrt(kappa)
+    return max(omega, root)
+
+
+@kernel
+def fill_basis(kappa, zeta, omega, width, basis):
+    """Power series in t = h / width of the responses to unit (X - s, X', F_m, A sin theta, A cos theta).
+
+    The equation itself gives each coefficient from the two before it,
+    (n+1)(n+2) c[n+2] = -2 zeta w (n+1) c[n+1] - kappa w^2 c[n] + w^2 f[n], f the forcing's series.
+    """
+    basis[:, :] = 0.0
+    basis[0, 0] = 1.0
+    basis[1, 1] = width
+    turn = omega * width
+    power = width * width  # w^2 (Omega w)^n / n!
+    for n in range(DEGREE - 1):
+        quarter = n % 4
+        sine = power * (1.0 - quarter if quarter % 2 == 0 else 0.0)  # 1, 0, -1, 0
+        cosine = power * (2.0 - quarter if quarter % 2 == 1 else 0.0)  # 0, 1, 0, -1
+        for i in range(5):
+            force = 0.0
+            if i == 2 and n == 0:
+                force = width * width
+            elif i == 3:
+                force = sine
+            elif i == 4:
+                force = cosine
+            basis[i, n + 2] = (
+                force - 2.0 * zeta * width * (n + 1) * basis[i, n + 1] - kappa * width * width * basis[i, n]
+            ) / ((n + 1) * (n + 2))
+        power *= turn / (n + 1)
+
+
+@kernel
+def expand(basis, shift, x, v, force, sine, cosine, series):
+    """The motion's power series in t from its state and forcing at t = 0."""
+    y = x - shift
+    for n in range(TERMS):
+        series[n] = (
+            basis[0, n] * y + basis[1, n] * v + (basis[2, n] * force + basis[3, n] * sine + basis[4, n] * cosine)
+        )
+    series[0] += shift
+
+
+@kernel
+def evaluate(series, t):
+    """Value and first two derivatives of a power series at t (Horner)."""
+    p = series[DEGREE]
+    dp = 0.0
+    half_ddp = 0.0
+    for n in range(DEGREE - 1, -1, -1):
+        half_ddp = half_ddp * t + dp
+        dp = dp * t + p
+        p = p * t + series[n]
+    return p, dp, 2.0 * half_ddp

@@ -1,0 +1,147 @@
+"""Where a linear piece of the motion first leaves its region, with a proof that it did not leave before.
+
+Regions are -1 (coast-side contact, X <= -1), 0 (free flight, -1 <= X <= 1) and +1 (drive-side
+contact, X >= 1). The motion on the rest of a cell is a power series p(t), t from 0 to `end` <= 1. Three
+certificates, cheapest first:
+
+1. *Inside.* The cubic Hermite interpolant of p lies in the hull of its Bezier points, and p within
+   `spread` >= end^4 max |p''''| / 384 of it: with the hull inside the region by more than that, p is inside.
+2. *Monotone.* The interpolant's slope is off by at most (sqrt(3) / 216) end^3 max |p''''|, which is
+   `MONOTONE` times the spread in the scale of differences of Bezier points: with these
+   all of one sign by more than that, p is monotone, and leaves exactly where its end value says.
+3. *Step by step.* From distance d >= 0 with rate u, no crossing can happen before the first positive root
+   of d + u h - B h^2 / 2, where B >= max |p''|. Stepping by that root never passes a crossing; it
+   converges quadratically on a transversal one.
+"""
+
+import numpy as np
+
+from ._kernel import kernel
+from .closed_form import evaluate
+
+MONOTONE = 384.0 * np.sqrt(3.0) / 216.0 / 3.0 * 1.01
+ROUNDING = 2.0**-52
+MAX_STEPS = 400
+INSIDE, LEFT, UNDECIDED = 0, 1, 2
+
+
+@kernel
+def certified_step(d, u, bend):
+    """The first positive root h of ``d + u h - bend h^2 / 2``, for d >= 0: no crossing before it."""
+    root = np.sqrt(u * u + 2.0 * bend * d)
+    if u > 0.0:
+        return (u + root) / bend
+    if d == 0.0:
+        return 0.0
+    return 2.0 * d / (root - u)
+
+
+@kernel
+def region_at(x, v, acceleration, force_rate):
+    """The region that the motion enters from (x, v): on a boundary the first non-zero derivative decides."""
+    if x > 1.0:
+        return 1
+    if x < -1.0:
+        return -1
+    if -1.0 < x < 1.0:
+        return 0
+    way = v
+    if way == 0.0:
+        way = acceleration
+    if way == 0.0:
+        way = force_rate
+    if x == 1.0:
+        return 1 if way > 0.0 else 0
+    return -1 if way < 0.0 else 0
+
+
+@kernel
+def first_exit(series, region, end, x1, v1, spread, bend):
+    """When the motion first leaves `region` in (0, end].
+
+    Returns (outcome, t, boundary): LEFT at t through X = boundary, INSIDE with t = end, or
+    UNDECIDED when `MAX_STEPS` certified steps did not reach the end.
+
+    ``x1, v1`` are value and slope (per t) at `end`; ``spread`` and ``bend`` as in the module's text.
+    """
+    b0, b3 = series[0], x1
+    b1 = b0 + series[1] * end / 3.0
+    b2 = b3 - v1 * end / 3.0
+    lowest, highest = min(min(b0, b1), min(b2, b3)), max(max(b0, b1), max(b2, b3))
+    floor = -np.inf if region < 0 else 1.0 if region > 0 else -1.0
+    ceiling = np.inf if region > 0 else -1.0 if region < 0 else 1.0
+    if lowest - spread >= floor and highest + spread <= ceiling:
+        return INSIDE, end, 0.0
+    margin = MONOTONE * spread
+    rising = b1 - b0 > margin and b2 - b1 > margin and b3 - b2 > margin
+    falling = b0 - b1 > margin and b1 - b2 > margin and b2 - b3 > margin
+    if rising or falling:
+        boundary = ceiling if rising else floor
+        if (rising and x1 <= ceiling) or (falling and x1 >= floor):
+            return INSIDE, end, 0.0
+        return LEFT, single_root(series, boundary, end, b0, b1, b2, b3), boundary
+    return step_by_step(series, floor, ceiling, end, bend)
+
+
+@kernel
+def single_root(series, boundary, end, b0, b1, b2, b3):
+    """The root of ``p(t) = boundary`` on (0, end) where p is monotone and passes the boundary.
+
+    Started from the root of the cubic Hermite interpolant, then Halley's iteration kept in a bracket.
+    """
+    c1, c2, c3 = 3.0 * (b1 - b0), 3.0 * (b2 - 2.0 * b1 + b0), b3 - b0 + 3.0 * (b1 - b2)
+    s = (boundary - b0) / (b3 - b0)
+    for _ in range(2):
+        cubic = b0 - boundary + s * (c1 + s * (c2 + s * c3))
+        slope = c1 + s * (2.0 * c2 + s * 3.0 * c3)
+        s -= cubic / slope
+    sign = 1.0 if b3 > b0 else -1.0
+    low, high = 0.0, end
+    t = s * end
+    if not low < t < high:
+        t = 0.5 * end
+    for _ in range(60):
+        p, dp, ddp = evaluate(series, t)
+        p -= boundary
+        if sign * p > 0.0:
+            high = t
+        else:
+            low = t
+        newton = p / dp
+        step = newton / (1.0 - 0.5 * newton * ddp / dp)
+        if abs(step) <= 1e-6 * end:  # the next error is its cube
+            return min(max(t - step, 0.0), end)
+        t -= step
+        if not low < t < high:
+            t = 0.5 * (low + high)
+    return t
+
+
+@kernel
+def step_by_step(series, floor, ceiling, end, bend):
+    """`first_exit` by certified steps alone."""
+    # Below `tiny` a distance is rounding; moving for `sqrt(2 tiny / bend)` cannot pass it by more than that.
+    tiny = ROUNDING * max(1.0, abs(series[0]))
+    least = np.sqrt(2.0 * tiny / bend) if bend > 0.0 else end
+    t = 0.0
+    for _ in range(MAX_STEPS):
+        p, dp, _ddp = evaluate(series, t)
+        above, below = p - floor, ceiling - p
+        if above <= tiny and dp < 0.0:
+            return LEFT, t, floor
+        if below <= tiny and dp > 0.0:
+            return LEFT, t, ceiling
+        step = end
+        if bend > 0.0:
+            step = np.inf
+            if above < np.inf:
+                step = min(step, certified_step(max(above, 0.0), dp, bend))
+            if below < np.inf:
+                step = min(step, certified_step(max(below, 0.0), -dp, bend))
+            # Moving towards a boundary, the root is the safe step; at rest on one or leaving it, `least` is.
+            if min(above, below) <= tiny:
+                step = max(step, least)
+        t += step
+        if t >= end:
+            return INSIDE, end, 0.0
+    return UNDECIDED, t, 0.0

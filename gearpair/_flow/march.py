@@ -1,0 +1,142 @@
+"""The march: one oscillator's motion over whole mesh periods, cell by cell, event by event."""
+
+import numpy as np
+
+from numba import prange
+
+from ._kernel import kernel, parallel_kernel
+from .cells import S0, SINE, SV, SX, V0, VV, VX, WIDTH, X0, XV, XX, COSINE
+from .closed_form import TERMS, evaluate, expand
+from .event_search import INSIDE, UNDECIDED, first_exit, region_at
+
+# Status of a march.
+OK, ESCAPED, TOO_MANY_EVENTS, EVENT_UNDECIDED = 0, 1, 2, 3
+
+MAX_EVENTS_PER_PERIOD = 10_000
+
+
+@kernel
+def first_region(cells, x, v):
+    """The region that the motion enters from (x, v) at the start of a mesh period."""
+    sine, cosine = cells.clock[0, SINE], cells.clock[0, COSINE]
+    acceleration = cells.force + sine - 2.0 * cells.damping_ratio * v
+    return region_at(x, v, acceleration, cosine)
+
+
+@kernel
+def next_segment(cells, j, t, x, v, region, series):
+    """Follow the motion in cell `j` from t to the first exit from `region` or the cell's end.
+
+    Fills `series` with the segment's power series in the time since t (unit: the cell's width). Returns
+    (outcome, duration, x, v), x exactly on the boundary after an exit.
+    """
+    level, width = cells.level[j], cells.clock[j, WIDTH]
+    contact = abs(region)
+    sine, cosine = cells.clock[j, SINE], cells.clock[j, COSINE]
+    if t > 0.0:
+        turn = t * width * cells.turn / cells.period
+        c, s = np.cos(turn), np.sin(turn)
+        sine, cosine = sine * c + cosine * s, cosine * c - sine * s
+    expand(cells.bases[level, contact], region, x, v, cells.force, sine, cosine, series)
+    bends = cells.bends[level, contact]
+    bend = (
+        bends[0] * abs(x - region)
+        + bends[1] * abs(v)
+        + bends[2] * abs(cells.force)
+        + bends[3] * abs(sine)
+        + bends[4] * abs(cosine)
+    )
+    end = 1.0 - t
+    x1, v1, _ = evaluate(series, end)
+    spread = series_spread(series, end)
+    outcome, duration, boundary = first_exit(series, region, end, x1, v1, spread, bend)
+    if outcome == INSIDE:
+        return outcome, end, x1, v1 / width
+    _, v1, _ = evaluate(series, duration)
+    return outcome, duration, boundary, v1 / width
+
+
+@kernel
+def series_spread(series, end):
+    """``end^4 max |p''''| / 384``, the distance of p from its cubic Hermite interpolant on [0, end]."""
+    bound = 0.0
+    for n in range(TERMS - 1, 3, -1):
+        bound = bound * end + n * (n - 1) * (n - 2) * (n - 3) * abs(series[n])
+    return bound * end**4 / 384.0
+
+
+@kernel
+def region_after(region, x):
+    """The region beyond boundary `x`, left from `region`."""
+    if region == 0:
+        return 1 if x > 0.0 else -1
+    return 0
+
+
+@kernel
+def cross_cell(cells, j, x, v, region, series):
+    """The rest of cell `j` where a crossing may happen: (status, number of events, x, v, region)."""
+    t = 0.0
+    events = 0
+    while True:
+        outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
+        if outcome == INSIDE:
+            return OK, events, x, v, region
+        if outcome == UNDECIDED:
+            return EVENT_UNDECIDED, events, x, v, region
+        events += 1
+        t += duration
+        region = region_after(region, x)
+        if events > MAX_EVENTS_PER_PERIOD:
+            return TOO_MANY_EVENTS, events, x, v, region
+
+
+@kernel
+def follow_cell(cells, j, x, v, region):
+    """The state at the end of cell `j` if the motion certainly stays in `region`: (certain, x, v, low, high).
+
+    ``low`` and ``high`` bound X over the cell; the certificate is the first of `event_search`.
+    """
+    row = cells.maps[j, region + 1]
+    x1 = row[XX] * x + (row[XV] * v + row[X0])
+    v1 = row[VX] * x + (row[VV] * v + row[V0])
+    third = cells.clock[j, WIDTH] / 3.0
+    b1, b2 = x + third * v, x1 - third * v1
+    spread = row[SX] * abs(x - region) + (row[SV] * abs(v) + row[S0])
+    low = min(min(x, b1), min(b2, x1)) - spread
+    high = max(max(x, b1), max(b2, x1)) + spread
+    certain = (region < 0 or low >= 2.0 * region - 1.0) and (region > 0 or high <= 2.0 * region + 1.0)
+    return certain, x1, v1, low, high
+
+
+@kernel
+def march(cells, x, v, n_periods, series):
+    """The state after `n_periods` mesh periods from (x, v) at the start of one: (status, x, v).
+
+    Stops early, with the state reached, when the status is not OK.
+    """
+    region = first_region(cells, x, v)
+    for _ in range(n_periods):
+        events = 0
+        for j in range(cells.level.size):
+            certain, x1, v1, _low, _high = follow_cell(cells, j, x, v, region)
+            if certain:
+                x, v = x1, v1
+                continue
+            status, n, x, v, region = cross_cell(cells, j, x, v, region, series)
+            events += n
+            if status != OK:
+                return status, x, v
+            if events > MAX_EVENTS_PER_PERIOD:
+                return TOO_MANY_EVENTS, x, v
+        if not abs(x) + abs(v) <= cells.escape_radius:
+            return ESCAPED, x, v
+    return OK, x, v
+
+
+@parallel_kernel
+def march_starts(cells, starts, n_periods, ends, status):
+    """`march` from each row of `starts` (n, 2) in parallel, filling `ends` (n, 2) and `status` (n,)."""
+    for i in prange(starts.shape[0]):
+        series = np.empty(TERMS)
+        status[i], ends[i, 0], ends[i, 1] = march(cells, starts[i, 0], starts[i, 1], n_periods, series)

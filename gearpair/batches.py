@@ -1,0 +1,156 @@
+"""Batches of motions followed until they settle: many oscillators, many starts, block by block."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+from tqdm import tqdm
+
+from gearpair._checks import check_count
+from gearpair._flow.settle import NOT_RUN, Lanes, Settled, settle_batch, settle_chain
+from gearpair.oscillator import Oscillator
+
+BLOCK = 64  # lanes between two moves of the progress bar, and between two chances to stop
+
+
+class Status(StrEnum):
+    """What a motion became; a string, so that it compares with its name."""
+
+    PERIODIC = "periodic"
+    APERIODIC = "aperiodic"
+    UNSETTLED = "unsettled"
+    ESCAPED = "escaped"
+    CAPPED = "capped"
+    NOT_RUN = "not_run"
+
+    @property
+    def remedy(self) -> str:
+        """A sentence: what the status means and what a user may do."""
+        return REMEDIES[self]
+
+
+STATUSES = tuple(Status)  # in the order of the kernels' codes
+REMEDIES = {
+    Status.PERIODIC: "the motion has settled on a stable periodic orbit",
+    Status.APERIODIC: "the largest Lyapunov exponent is positive, well outside its uncertainty: chaos",
+    Status.UNSETTLED: "neither periodic nor of a resolved positive exponent: raise n_transient or max_period; "
+    "without damping there is nothing to settle on",
+    Status.ESCAPED: "the motion grows without bound: start nearer to the backlash zone, or raise damping_ratio",
+    Status.CAPPED: "too many events in one mesh period: the oscillator is outside what a gear can do",
+    Status.NOT_RUN: "the run was stopped before this value: run it again",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class SettleSettings:
+    """How long to wait for a motion to settle and how far to look.
+
+    Parameters
+    ----------
+    n_transient : int, optional
+        Mesh periods at most before a motion is judged; `transient_periods` of the oscillator when not given.
+    max_period : int
+        The longest period looked for, in mesh periods.
+    n_exponent : int
+        Mesh periods over which the exponents of a motion that is not periodic are measured.
+    n_samples : int
+        Section points to keep.
+    """
+
+    n_transient: int | None = None
+    max_period: int = 64
+    n_exponent: int = 2000
+    n_samples: int = 256
+
+    def __post_init__(self) -> None:
+        if self.n_transient is not None:
+            check_count("n_transient", self.n_transient, at_least=0)
+        for name in ("max_period", "n_exponent", "n_samples"):
+            check_count(name, getattr(self, name))
+
+
+def transient_periods(osc: Oscillator) -> int:
+    """Mesh periods that a transient needs to fall to 9 digits at best: ``20 / (zeta T)``, within 500 to 20 000.
+
+    Transients die like exp(-zeta tau) at best, slower near a bifurcation.
+
+    Examples
+    --------
+    >>> transient_periods(Oscillator(damping_ratio=0.00275))
+    811
+    """
+    rate = osc.damping_ratio * osc.period
+    return int(np.clip(np.ceil(20.0 / rate), 500, 20_000)) if rate > 0.0 else 20_000
+
+
+def settle_lanes(
+    oscillators: Sequence[Oscillator],
+    starts: NDArray[np.float64],
+    settings: SettleSettings,
+    *,
+    carry: bool,
+    progress: bool = False,
+) -> Settled:
+    """Follow each oscillator from its start until it settles.
+
+    Parameters
+    ----------
+    oscillators : sequence of Oscillator
+        All with equally many stiffness levels.
+    starts : ndarray of float, shape (n, 2)
+        X and X' of each lane.
+    settings : SettleSettings
+    carry : bool
+        Start each lane where the one before it ended (one after the other) instead of from its own
+        start (in parallel over the cores).
+    progress : bool
+        Show a progress bar on stderr.
+
+    Returns
+    -------
+    Settled
+        Arrays with one row a lane. Ctrl-C keeps the rows that are done, with a warning.
+    """
+    n = len(oscillators)
+    out = _room(n, settings)
+    lanes = _lanes(oscillators, starts, settings)
+    run = settle_chain if carry else settle_batch
+    with tqdm(total=n, unit="motion", disable=not progress) as bar:
+        try:
+            for first in range(0, n, BLOCK):
+                last = min(first + BLOCK, n)
+                run(lanes, first, last, settings.max_period, settings.n_exponent, out)
+                bar.update(last - first)
+        except KeyboardInterrupt:
+            done = int(np.sum(out.status != NOT_RUN))
+            warnings.warn(f"stopped after {done} of {n} motions; the rest has status 'not_run'", stacklevel=3)
+    return out
+
+
+def _lanes(oscillators: Sequence[Oscillator], starts: NDArray[np.float64], settings: SettleSettings) -> Lanes:
+    return Lanes(
+        np.array(
+            [(o.mean_force, o.error_amplitude, o.error_phase, o.damping_ratio, o.mesh_frequency) for o in oscillators]
+        ),
+        np.array([(*o.stiffness.edges, 1.0) for o in oscillators]),
+        np.array([o.stiffness.levels for o in oscillators]),
+        np.array(starts, dtype=float),
+        np.array([transient_periods(o) if settings.n_transient is None else settings.n_transient for o in oscillators]),
+    )
+
+
+def _room(n: int, settings: SettleSettings) -> Settled:
+    return Settled(
+        np.full(n, NOT_RUN),
+        np.zeros(n, np.int64),
+        np.full((n, settings.n_samples, 2), np.nan),
+        np.full((n, 2, 2), np.nan),
+        np.full((n, 2), np.nan),
+        np.full((n, 3), np.nan),
+        np.full((n, 2), np.nan),
+    )

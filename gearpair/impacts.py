@@ -1,0 +1,67 @@
+"""The impact state of a motion: which flanks touch over its cycle."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+from gearpair._checks import check_number
+
+
+class ImpactState(StrEnum):
+    """Which flanks touch over a cycle; a string, so that it compares with its name."""
+
+    NONE_DRIVE = "none_drive"
+    NONE_COAST = "none_coast"
+    SINGLE_DRIVE = "single_drive"
+    SINGLE_COAST = "single_coast"
+    DOUBLE = "double"
+    NEVER_IN_CONTACT = "never_in_contact"
+
+
+def impact_state(x_min: float, x_max: float) -> ImpactState:
+    """The impact state from the extremes of X over a cycle.
+
+    Parameters
+    ----------
+    x_min, x_max : float
+        Smallest and largest X (dimensionless), ``x_min <= x_max``.
+
+    Returns
+    -------
+    ImpactState
+        ``none_drive`` (x_min >= 1) and ``none_coast`` (x_max <= -1): always in contact, no impact.
+        ``single_drive`` (-1 <= x_min < 1 <= x_max): rattle on the drive side.
+        ``double`` (x_min < -1 and x_max > 1): clatter on both.
+        ``single_coast`` (x_min <= -1 and -1 < x_max <= 1, where nothing above applies).
+        ``never_in_contact``: within the backlash throughout.
+
+    Raises
+    ------
+    ValueError
+        For extremes that are not finite or not in order.
+
+    Notes
+    -----
+    The article, items I1 to I3, which leave the last two unnamed. With a positive mean force a
+    bounded motion has mean(k f) = F_m, so `none_coast`, `single_coast` and `never_in_contact`
+    cannot be steady states there.
+
+    Examples
+    --------
+    >>> str(impact_state(0.2, 1.8))
+    'single_drive'
+    """
+    x_min, x_max = check_number("x_min", x_min), check_number("x_max", x_max)
+    if x_min > x_max:
+        raise ValueError(f"x_min must not exceed x_max, got x_min = {x_min} and x_max = {x_max}")
+    if x_min >= 1.0:
+        return ImpactState.NONE_DRIVE
+    if x_max <= -1.0:
+        return ImpactState.NONE_COAST
+    if x_min >= -1.0 and x_max >= 1.0:
+        return ImpactState.SINGLE_DRIVE
+    if x_min < -1.0 and x_max > 1.0:
+        return ImpactState.DOUBLE
+    if x_min <= -1.0:
+        return ImpactState.SINGLE_COAST
+    return ImpactState.NEVER_IN_CONTACT

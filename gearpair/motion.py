@@ -1,0 +1,276 @@
+"""The motion from one start: the stroboscopic map and the trajectory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair._checks import check_choice, check_count, check_number
+from gearpair._flow.closed_form import TERMS
+from gearpair._flow.march import ESCAPED, EVENT_UNDECIDED, MAX_EVENTS_PER_PERIOD, OK, TOO_MANY_EVENTS, march, march_starts
+from gearpair._flow.observe import record
+from gearpair.oscillator import Oscillator
+
+METHODS = ("exact", "RK23", "RK45", "DOP853", "Radau", "BDF", "LSODA")
+
+CAPPED = {
+    TOO_MANY_EVENTS: f"more than {MAX_EVENTS_PER_PERIOD} contacts and separations in one mesh period: "
+    "raise mesh_frequency, or lower error_amplitude, until the motion is one that a gear can make",
+    EVENT_UNDECIDED: "an impact could not be told from a near miss: change the start by a rounding error "
+    "and report the oscillator and start as a bug",
+}
+
+
+@dataclass(frozen=True)
+class Impacts:
+    """Every crossing of X = +-1, in order; all arrays have shape (n,).
+
+    Attributes
+    ----------
+    tau : ndarray of float
+        Dimensionless time.
+    side : ndarray of int
+        +1 for the drive side, -1 for the coast side.
+    velocity : ndarray of float
+        X' there (dimensionless).
+    contact : ndarray of bool
+        True where contact begins, False where it ends (separation).
+    """
+
+    tau: NDArray[np.float64]
+    side: NDArray[np.int64]
+    velocity: NDArray[np.float64]
+    contact: NDArray[np.bool_]
+
+    def __len__(self) -> int:
+        return len(self.tau)
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """A sampled motion; `tau`, `x` and `v` have shape (n_periods * samples_per_period + 1,).
+
+    Attributes
+    ----------
+    oscillator : Oscillator
+    tau, x, v : ndarray of float
+        Dimensionless time from 0 (after the transient), X and X'; the end point is included.
+    impacts : Impacts
+    samples_per_period : int
+        Samples per mesh period: ``x[::samples_per_period]`` is the Poincaré section.
+    method : str
+        ``"exact"`` or the name of the integrator.
+    """
+
+    oscillator: Oscillator
+    tau: NDArray[np.float64]
+    x: NDArray[np.float64]
+    v: NDArray[np.float64]
+    impacts: Impacts
+    samples_per_period: int
+    method: str
+
+
+def check_starts(x: ArrayLike, v: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Broadcast starts against each other, or raise a ValueError that says what is wrong with them."""
+    try:
+        xs, vs = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(v, dtype=float))
+    except (TypeError, ValueError):
+        raise ValueError(
+            f"x and v must be numbers of shapes that broadcast, got shapes {np.shape(x)} and {np.shape(v)}"
+        ) from None
+    for name, values in (("x", xs), ("v", vs)):
+        if not np.all(np.isfinite(values)):
+            raise ValueError(f"{name} must be finite, got {values[~np.isfinite(values)].flat[0]}")
+    return xs, vs
+
+
+def stroboscopic_map(
+    osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The state `n` mesh periods after (x, v) on the section ``tau mod T = 0``.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    x, v : array_like of float
+        X and X' at the start of a mesh period; broadcast against each other.
+    n : int
+        Mesh periods, at least 0.
+
+    Returns
+    -------
+    x, v : ndarray of float
+        The broadcast shape. A start that escapes to infinity comes back as +-inf.
+
+    Raises
+    ------
+    ValueError
+        For starts that are not finite or do not broadcast, or an `n` below 0.
+    RuntimeError
+        Where the march is capped; the message says what to do.
+
+    Notes
+    -----
+    A start has escaped when |X| + |X'| exceeds 1e6 at the end of a mesh period and the
+    always-in-contact equation, which governs such motions, is parametrically unstable (Floquet).
+
+    Examples
+    --------
+    >>> osc = Oscillator()
+    >>> x, v = stroboscopic_map(osc, [0.0, 1.0], 0.0, n=500)
+    >>> bool(abs(x[0] - x[1]) < 1e-12)
+    True
+    """
+    xs, vs = check_starts(x, v)
+    n = check_count("n", n, at_least=0)
+    starts = np.stack([xs.ravel(), vs.ravel()], axis=1)
+    ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
+    march_starts(osc._cells, starts, n, ends, status)
+    for code, remedy in CAPPED.items():
+        if np.any(status == code):
+            i = int(np.argmax(status == code))
+            raise RuntimeError(f"start x = {starts[i, 0]}, v = {starts[i, 1]}: {remedy}")
+    gone = status == ESCAPED
+    ends[gone] = np.copysign(np.inf, ends[gone])
+    return ends[:, 0].reshape(xs.shape), ends[:, 1].reshape(xs.shape)
+
+
+def trajectory(
+    osc: Oscillator,
+    x: float,
+    v: float,
+    n_periods: int,
+    *,
+    n_transient: int = 0,
+    samples_per_period: int = 128,
+    method: str = "exact",
+    rtol: float = 1e-3,
+    atol: float = 1e-6,
+) -> Trajectory:
+    """The motion from (x, v) at the start of a mesh period, sampled, with every impact.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    x, v : float
+        X and X' at the start (dimensionless).
+    n_periods : int
+        Mesh periods to keep, at least 1.
+    n_transient : int
+        Mesh periods to run first and discard.
+    samples_per_period : int
+        Samples per mesh period.
+    method : {"exact", "RK23", "RK45", "DOP853", "Radau", "BDF", "LSODA"}
+        The exact flow, or an integrator of `scipy.integrate.solve_ivp` over the whole span with the
+        given tolerances, crossing the discontinuities as it finds them: the article's way.
+    rtol, atol : float
+        The integrator's tolerances (scipy's defaults); without meaning for the exact flow.
+
+    Returns
+    -------
+    Trajectory
+
+    Raises
+    ------
+    ValueError
+        For an argument out of range.
+    RuntimeError
+        Where the motion escapes to infinity, the march is capped or the integrator fails.
+
+    Examples
+    --------
+    >>> motion = trajectory(Oscillator(), 1.0, 0.0, 2, n_transient=500)
+    >>> motion.x.shape
+    (257,)
+    >>> len(motion.impacts)
+    4
+    """
+    xs, vs = check_starts(x, v)
+    if xs.ndim:
+        raise ValueError(f"x and v must be single numbers, got shape {xs.shape}")
+    n_periods = check_count("n_periods", n_periods)
+    n_transient = check_count("n_transient", n_transient, at_least=0)
+    samples_per_period = check_count("samples_per_period", samples_per_period)
+    check_choice("method", method, METHODS)
+    run = _exact if method == "exact" else _integrated
+    samples, impacts = run(
+        osc, float(xs), float(vs), n_periods, n_transient, samples_per_period, method=method, rtol=rtol, atol=atol
+    )
+    tau = np.arange(len(samples)) * (osc.period / samples_per_period)
+    return Trajectory(osc, tau, samples[:, 0], samples[:, 1], impacts, samples_per_period, method)
+
+
+def _exact(
+    osc: Oscillator, x: float, v: float, n_periods: int, n_transient: int, samples_per_period: int, **_: Any
+) -> tuple[NDArray[np.float64], Impacts]:
+    status, x, v = march(osc._cells, x, v, n_transient, np.empty(TERMS))
+    _raise_unless_ok(status, n_transient)
+    samples = np.empty((n_periods * samples_per_period + 1, 2))
+    crossings = np.empty((0, 4))
+    status, done, n = record(osc._cells, x, v, n_periods, samples_per_period, samples, crossings)
+    _raise_unless_ok(status, n_transient + done)
+    crossings = np.empty((n, 4))
+    record(osc._cells, x, v, n_periods, samples_per_period, samples, crossings)
+    impacts = Impacts(
+        crossings[:, 0] * osc.period, crossings[:, 1].astype(int), crossings[:, 2].copy(), crossings[:, 3] == 1.0
+    )
+    return samples, impacts
+
+
+def _raise_unless_ok(status: int, periods: int) -> None:
+    if status == ESCAPED:
+        raise RuntimeError(
+            f"the motion escapes to infinity within {periods} mesh periods: contact is parametrically unstable at "
+            "this mesh frequency; start nearer to the backlash zone, or raise damping_ratio"
+        )
+    if status != OK:
+        raise RuntimeError(CAPPED[status])
+
+
+def _integrated(
+    osc: Oscillator,
+    x: float,
+    v: float,
+    n_periods: int,
+    n_transient: int,
+    samples_per_period: int,
+    *,
+    method: str,
+    rtol: float,
+    atol: float,
+) -> tuple[NDArray[np.float64], Impacts]:
+    from scipy.integrate import solve_ivp  # here, so that importing gearpair stays quick
+
+    check_number("rtol", rtol, above=0.0)
+    check_number("atol", atol, above=0.0)
+    wave, omega, zeta = osc.stiffness, osc.mesh_frequency, osc.damping_ratio
+    amplitude = osc.error_amplitude * omega**2
+
+    def slope(tau: float, y: NDArray[np.float64]) -> tuple[float, float]:
+        x, v = y
+        gap = x - 1.0 if x > 1.0 else x + 1.0 if x < -1.0 else 0.0
+        stiffness = wave(tau / osc.period) if gap else 0.0
+        force = osc.mean_force + amplitude * np.sin(omega * tau + osc.error_phase)
+        return v, force - 2.0 * zeta * v - stiffness * gap
+
+    begin, end = n_transient * osc.period, (n_transient + n_periods) * osc.period
+    crossings = [lambda tau, y: y[0] - 1.0, lambda tau, y: y[0] + 1.0]
+    times = np.linspace(begin, end, n_periods * samples_per_period + 1)
+    solution = solve_ivp(
+        slope, (0.0, end), (x, v), method=method, t_eval=times, rtol=rtol, atol=atol, events=crossings
+    )
+    if not solution.success:
+        raise RuntimeError(f"{method} failed: {solution.message}")
+    rows = [
+        (tau - begin, side, y[1], float(y[1] * side > 0.0))
+        for side, taus, states in zip((1, -1), solution.t_events, solution.y_events, strict=True)
+        for tau, y in zip(taus, states, strict=True)
+        if tau >= begin
+    ]
+    found = np.array(sorted(rows)).reshape(-1, 4)
+    impacts = Impacts(found[:, 0], found[:, 1].astype(int), found[:, 2], found[:, 3] == 1.0)
+    return solution.y.T, impacts
