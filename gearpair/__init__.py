@@ -3,6 +3,7 @@
 Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`.
 """
 
+from gearpair import published
 from gearpair.batches import Status
 from gearpair.impacts import ImpactState, impact_state
 from gearpair.initial_conditions import basins
@@ -26,6 +27,7 @@ __all__ = [
     "basins",
     "impact_state",
     "parameter_map",
+    "published",
     "spectrum",
     "steady_state",
     "stroboscopic_map",
