@@ -3,6 +3,7 @@
 Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`.
 """
 
+from gearpair import published
 from gearpair.batches import Status
 from gearpair.bifurcation_curves import BifurcationCurve, continue_bifurcation
 from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit, find_branches
@@ -44,6 +45,7 @@ __all__ = [
     "lyapunov_exponents",
     "parameter_map",
     "periodic_orbit",
+    "published",
     "spectrum",
     "steady_state",
     "stroboscopic_map",
