@@ -104,7 +104,8 @@ class SpurPair:
         Profile shifts x1, x2 in modules, positive away from the gear's centre.
     tip_radius : float, optional
         Radius of the *rack's* tip arc in modules, which cuts the fillet. Not given:
-        ``c / (1 - sin(alpha))``, the arc that ends the straight flank at depth h_a.
+        ``c / (1 - sin(alpha))``, the arc that ends the straight flank at depth h_a, or a fully round
+        tip where that arc is too wide for the rack (25 degrees and c = 0.25, say).
     bore_ratio : float
         Radius of the bore over the pitch radius, the same on both gears.
     youngs_modulus_gpa, poisson_ratio : float
@@ -195,7 +196,7 @@ class SpurPair:
     def rack_tip_radius(self) -> float:
         """Radius of the rack's tip arc in modules: `tip_radius`, or its default."""
         if self.tip_radius is None:
-            return self.clearance / (1 - math.sin(self.pressure_angle))
+            return min(self.clearance / (1 - math.sin(self.pressure_angle)), self._full_round)
         return self.tip_radius
 
     @property
@@ -293,22 +294,27 @@ class SpurPair:
         return self.addendum + self.clearance - self.rack_tip_radius * (1 - math.sin(self.pressure_angle))
 
     @property
+    def _full_round(self) -> float:
+        """Radius of the tip arc that leaves no flat, in modules; negative when the rack's tooth is pointed."""
+        alpha, depth = self.pressure_angle, self.addendum + self.clearance
+        return (math.pi / 4 - depth * math.tan(alpha)) * math.cos(alpha) / (1 - math.sin(alpha))
+
+    @property
     def _rack_tip_offset(self) -> float:
         alpha, depth = self.pressure_angle, self.addendum + self.clearance - self.rack_tip_radius
-        return math.pi / 4 - depth * math.tan(alpha) - self.rack_tip_radius / math.cos(alpha)
+        offset = math.pi / 4 - depth * math.tan(alpha) - self.rack_tip_radius / math.cos(alpha)
+        return max(offset, 0.0)  # a fully round tip, rounded
 
     def _check_rack(self) -> None:
-        if self._rack_tip_offset < 0.0:
-            alpha, depth = self.pressure_angle, self.addendum + self.clearance
-            most = (math.pi / 4 - depth * math.tan(alpha)) * math.cos(alpha) / (1 - math.sin(alpha))
-            if most < 0.0:
-                deepest = math.pi / 4 / math.tan(alpha)
-                raise ValueError(
-                    f"addendum + clearance = {depth:g} makes the rack's tooth pointed: it must be below {deepest:g}"
-                )
+        most, depth = self._full_round, self.addendum + self.clearance
+        if most < 0.0:
+            deepest = math.pi / 4 / math.tan(self.pressure_angle)
             raise ValueError(
-                f"tip_radius = {self.rack_tip_radius:g} modules does not fit the rack's tip: at most {most:g}"
-                + (" (not given, it is clearance / (1 - sin alpha))" if self.tip_radius is None else "")
+                f"addendum + clearance = {depth:g} makes the rack's tooth pointed: it must be below {deepest:g}"
+            )
+        if self.rack_tip_radius > most:
+            raise ValueError(
+                f"tip_radius = {self.rack_tip_radius:g} modules does not fit the rack's tip: it must be at most {most:g}"
             )
 
     def _check_gear(self, who: str, gear: SpurGear) -> None:

@@ -120,7 +120,7 @@ class ToothProfile:
         angle = self.gear.base_half_angle - t  # the string's direction: the force makes -angle with the cross-section
         sine, cosine = np.sin(angle), np.cos(angle)
         r = self.base_radius
-        return r * (cosine - t * sine), r * (sine + t * cosine), r * t * cosine, -r * t * sine
+        return r * (cosine - t * sine), r * (sine + t * cosine), r * t * cosine, r * t * sine
 
     def fillet(self, fraction: ArrayLike) -> tuple[Array, Array, Array, Array]:
         """The root curve, from the clamp (fraction 0) to the involute (fraction 1).
