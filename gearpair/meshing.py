@@ -215,10 +215,11 @@ def mesh_stiffness(
         raise ValueError("coupling = 'ring' joins the teeth by their gear bodies: it needs foundation=True")
     model = _Model(pair, root, foundation, coupling)
     ratio = pair.contact_ratio
-    whole, part = math.floor(ratio + 1e-12), max(ratio - math.floor(ratio + 1e-12), 0.0)
+    whole = math.floor(ratio + 1e-12)
+    part = ratio - whole if ratio - whole > 1e-12 else 0.0
     zones = []
     for left, right, count in ((0.0, part, whole + 1), (part, 1.0, whole)):
-        if right - left > 1e-12:
+        if right > left:
             nodes = left + (right - left) * (1 + _NODES) / 2
             zones.append(Legendre(_legendre(model.shared(nodes, count).sum(axis=0)), domain=[left, right]))
     phase = np.arange(n_phases) / n_phases

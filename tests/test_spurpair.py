@@ -172,7 +172,10 @@ BAD = [
     ({"tip_radius": 0.6}, "tip_radius = 0.6 modules does not fit the rack's tip: it must be at most 0.4"),
     ({"addendum": 2.0}, "addendum + clearance = 2.25 makes the rack's tooth pointed: it must be below 2.15"),
     ({"tip_radius": 0.45, "gear_teeth": 400}, "interference: the gear's tip meets the pinion"),
-    ({"clearance": 0.05, "pinion_shift": 0.6, "gear_shift": 0.6}, "the pinion's tip circle reaches the gear's root circle"),
+    (
+        {"clearance": 0.05, "pinion_shift": 0.6, "gear_shift": 0.6},
+        "the pinion's tip circle reaches the gear's root circle",
+    ),
     (
         {"pinion_teeth": 100, "gear_teeth": 100, "pinion_shift": -2.1, "gear_shift": -2.0},
         "pinion_shift + gear_shift must be above",
