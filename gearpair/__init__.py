@@ -5,10 +5,13 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 
 from gearpair import published
 from gearpair.batches import Status
+from gearpair.drive import GearDrive
+from gearpair.exponents import lyapunov_exponents
 from gearpair.impacts import ImpactState, impact_state
 from gearpair.initial_conditions import basins
 from gearpair.maps import parameter_map
 from gearpair.motion import Impacts, Trajectory, stroboscopic_map, trajectory
+from gearpair.orbits import NewtonStatus, PeriodicOrbit, find_orbits, periodic_orbit
 from gearpair.oscillator import Oscillator
 from gearpair.spectra import Spectrum, spectrum
 from gearpair.steady import SteadyState, steady_state
@@ -16,6 +19,7 @@ from gearpair.stiffness import StiffnessWave
 from gearpair.sweeps import sweep
 
 __all__ = [
+    "GearDrive",
     "ImpactState",
     "Impacts",
     "Oscillator",
