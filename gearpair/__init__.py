@@ -6,7 +6,8 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 from gearpair import published
 from gearpair.batches import Status
 from gearpair.bifurcation_curves import BifurcationCurve, continue_bifurcation
-from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit, find_branches
+from gearpair.branch_search import find_branches
+from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit
 from gearpair.drive import GearDrive
 from gearpair.exponents import lyapunov_exponents
 from gearpair.impacts import ImpactState, impact_state
