@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
-_HARMONICS = 600
+_HARMONICS = 400
 
 
 def ring_compliance(
