@@ -18,7 +18,7 @@ from gearpair.compliance import foundation_compliance, hertz_compliance, in_foun
 from gearpair.gear_body import ring_compliance
 from gearpair.spurpair import SpurPair
 from gearpair.stiffness import Rectangle, StiffnessWave
-from gearpair.tooth_profile import Root, ToothProfile
+from gearpair.tooth_profile import ROOTS, Root, ToothProfile
 
 Array = NDArray[np.float64]
 Coupling = Literal["summed", "ring"]
@@ -208,7 +208,7 @@ def mesh_stiffness(
     >>> round(summed.mean / 1e6), round(ring.mean / 1e6)
     (385, 307)
     """
-    check_choice("root", root, ("trochoid", "straight", "base_circle"))
+    check_choice("root", root, ROOTS)
     check_choice("coupling", coupling, COUPLINGS)
     n_phases = check_count("n_phases", n_phases, at_least=2)
     if coupling == "ring" and not foundation:

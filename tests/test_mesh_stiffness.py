@@ -199,6 +199,12 @@ def test_mesh_curve_is_the_sum_of_the_pairs(root: str, foundation: bool) -> None
         assert stiffness == pytest.approx(total, rel=1e-12)
 
 
+def test_contact_once_per_pair_in_si() -> None:
+    # k_h = pi E b / (4 (1 - nu^2)) = pi 206.8e9 0.020 / 3.64
+    contact = mesh_stiffness(SpurPair(), n_phases=2).compliance_m_per_n["hertz"]
+    assert 1 / contact == pytest.approx(3.569678e9, rel=1e-6)
+
+
 def test_result_is_consistent() -> None:
     result = mesh_stiffness(SpurPair(gear_teeth=54), coupling="ring", n_phases=400)
     ratio = result.contact_ratio
