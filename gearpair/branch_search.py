@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gearpair._checks import check_count
-from gearpair.branches import LARGEST_STEP, LARGEST_X, Bifurcation, Branch, continue_orbit, doubled_orbit
+from gearpair.branches import LARGEST_STEP, Bifurcation, Branch, continue_orbit, doubled_orbit, largest_x
 from gearpair.orbits import SAME_ORBIT, PeriodicOrbit, find_orbits, periodic_orbit
 from gearpair.oscillator import Oscillator
 
@@ -71,7 +71,7 @@ def _start(
 ) -> PeriodicOrbit | None:
     """The orbit to continue from an orbit or a flip, or None where that leads to nothing new."""
     if isinstance(found, PeriodicOrbit):
-        large = max(-found.x_min, found.x_max) > LARGEST_X
+        large = max(-found.x_min, found.x_max) > largest_x(found.oscillator)
         return None if large or any(_on_branch(branch, found) for branch in branches) else found
     for branch in branches:
         if branch.period == 2 * found.period and np.any(np.abs(branch.values[[0, -1]] - found.value) < 1e-6):

@@ -20,7 +20,7 @@ from gearpair.oscillator import Oscillator
 Kind = Literal["fold", "flip", "grazing"]
 FIRST_STEP, SMALLEST_STEP, LARGEST_STEP = 2e-3, 1e-9, 2e-2  # in scaled arc length
 MERGED = 0.1  # where two points pass each other by less than this share of how far they moved, they have met
-LARGEST_X = 20.0  # branches that run to infinity, as contact's parametric resonance makes them, are left here
+LARGEST_X = 20.0  # where branches that run to infinity, by contact's parametric resonance, are left; see largest_x
 TOUCHING = 1e-9  # a located grazing's distance from the boundary is below this
 
 
@@ -192,6 +192,11 @@ def continue_orbit(
     )
 
 
+def largest_x(osc: Oscillator) -> float:
+    """Where a branch is left: `LARGEST_X` times the static position, 1 + |F_m| / (mean stiffness)."""
+    return LARGEST_X * (1.0 + abs(osc.mean_force) / osc.stiffness.mean)
+
+
 CLOSED = "closed: the branch returned to its start"
 
 
@@ -200,6 +205,7 @@ def _walk(
 ) -> tuple[list[Step[Cycle]], str]:
     """The steps from `start` in one direction, and why they end."""
     name, scale = problem.names[0], problem.scales[0]
+    limit = largest_x(problem.osc)
     direction = np.array([0.0, 0.0, sign])
     steps: list[Step[Cycle]] = []
     walk = follow(
@@ -207,10 +213,10 @@ def _walk(
     )
     for step in walk:
         value = step.u[2] * scale
-        if not lower <= value <= upper:
+        if steps and not lower <= value <= upper:
             bound = lower if value < lower else upper
-            edge = _at_value(problem, steps[-1], step, bound) if steps else None
-            if edge is not None:
+            edge = _at_value(problem, steps[-1], step, bound)
+            if edge is not None and np.max(np.abs(edge.u - steps[-1].u)) > SMALLEST_STEP:
                 steps.append(edge)
             return steps, f"reached {name} = {bound:g}"
         merged = _merging(problem, steps[-1], step) if steps else None
@@ -218,8 +224,8 @@ def _walk(
             steps.append(merged)
             return steps, f"merges at {name} = {merged.u[2] * scale:.8g} with the orbit of half its period (flip)"
         steps.append(step)
-        if max(-step.data.x_min, step.data.x_max) > LARGEST_X:
-            return steps, f"grows beyond |X| = {LARGEST_X:g} at {name} = {value:.8g}"
+        if max(-step.data.x_min, step.data.x_max) > limit:
+            return steps, f"grows beyond |X| = {limit:g} at {name} = {value:.8g}"
         away = np.linalg.norm(step.u - start)
         if len(steps) > 20 and away < np.linalg.norm(step.u - steps[-2].u) and step.tangent @ steps[0].tangent > 0.5:
             return steps, CLOSED
@@ -376,7 +382,7 @@ def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
     problem = OrbitProblem(osc, 2 * bifurcation.period, {name: max(abs(bifurcation.value), 1e-3)})
     u = problem.unknowns(bifurcation.x, bifurcation.v)
     normal = np.array([*across, 0.0])
-    for distance in (1e-3, 1e-4, 1e-2, 1e-5):
+    for distance in (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-3, 1e-2):
         found = correct(problem.equations, u + distance * normal, normal)
         if found is not None and np.max(np.abs(problem.cycle(found[0]).half_gap)) > distance:
             x, v = found[0][:2].tolist()
