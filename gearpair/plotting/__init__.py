@@ -5,7 +5,14 @@ colour-blind readers. Nothing is set at import: ``plt.style.use(STYLE)``, or ``w
 the book's look.
 """
 
-from gearpair.plotting.diagrams import bifurcation_diagram, exponents, extremes, motion_shares, range_strips
+from gearpair.plotting.diagrams import (
+    bifurcation_diagram,
+    exponents,
+    extremes,
+    motion_shares,
+    range_lanes,
+    range_strips,
+)
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, motion_colour
@@ -28,6 +35,7 @@ __all__ = [
     "phase_portrait",
     "poincare_section",
     "portrait",
+    "range_lanes",
     "range_strips",
     "spectrum",
     "stiffness_wave",
