@@ -8,7 +8,6 @@ which 50 digits make harmless near their degeneracies) and finds events by dense
 from __future__ import annotations
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 import gearpair as gp
 from gearpair._flow.cells import Parameters
