@@ -109,7 +109,8 @@ def runge_kutta_sweep(
     -------
     xarray.Dataset
         Dimensions ``(parameter, sample)``: ``x``, ``v`` (nan where the integrator gave up); per value ``period``, the
-        smallest that all kept points repeat with (0 when none up to half of them), and ``calls`` of the right-hand side.
+        smallest that all kept points repeat with (0 when none up to half of them), and ``calls`` of the
+        right-hand side.
 
     Raises
     ------
