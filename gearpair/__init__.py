@@ -5,6 +5,7 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 
 from gearpair import published
 from gearpair.batches import Status
+from gearpair.comparison import apparent_period, runge_kutta_section, runge_kutta_sweep
 from gearpair.impacts import ImpactState, impact_state
 from gearpair.initial_conditions import basins
 from gearpair.maps import parameter_map
@@ -24,10 +25,13 @@ __all__ = [
     "SteadyState",
     "StiffnessWave",
     "Trajectory",
+    "apparent_period",
     "basins",
     "impact_state",
     "parameter_map",
     "published",
+    "runge_kutta_section",
+    "runge_kutta_sweep",
     "spectrum",
     "steady_state",
     "stroboscopic_map",

@@ -10,7 +10,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_choice, check_count, check_number
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.march import ESCAPED, EVENT_UNDECIDED, MAX_EVENTS_PER_PERIOD, OK, TOO_MANY_EVENTS, march, march_starts
+from gearpair._flow.march import (
+    ESCAPED,
+    EVENT_UNDECIDED,
+    MAX_EVENTS_PER_PERIOD,
+    OK,
+    TOO_MANY_EVENTS,
+    march,
+    march_starts,
+)
 from gearpair._flow.observe import record
 from gearpair.oscillator import Oscillator
 
@@ -260,9 +268,7 @@ def _integrated(
     begin, end = n_transient * osc.period, (n_transient + n_periods) * osc.period
     crossings = [lambda tau, y: y[0] - 1.0, lambda tau, y: y[0] + 1.0]
     times = np.linspace(begin, end, n_periods * samples_per_period + 1)
-    solution = solve_ivp(
-        slope, (0.0, end), (x, v), method=method, t_eval=times, rtol=rtol, atol=atol, events=crossings
-    )
+    solution = solve_ivp(slope, (0.0, end), (x, v), method=method, t_eval=times, rtol=rtol, atol=atol, events=crossings)
     if not solution.success:
         raise RuntimeError(f"{method} failed: {solution.message}")
     rows = [
