@@ -216,11 +216,11 @@ def _exact(
     osc: Oscillator, x: float, v: float, n_periods: int, n_transient: int, samples_per_period: int, **_: Any
 ) -> tuple[NDArray[np.float64], Impacts]:
     status, x, v = march(osc._cells, x, v, n_transient, np.empty(TERMS))
-    _raise_unless_ok(status, n_transient)
+    raise_unless_ok(status, n_transient)
     samples = np.empty((n_periods * samples_per_period + 1, 2))
     crossings = np.empty((0, 4))
     status, done, n = record(osc._cells, x, v, n_periods, samples_per_period, samples, crossings)
-    _raise_unless_ok(status, n_transient + done)
+    raise_unless_ok(status, n_transient + done)
     crossings = np.empty((n, 4))
     record(osc._cells, x, v, n_periods, samples_per_period, samples, crossings)
     impacts = Impacts(
@@ -229,7 +229,8 @@ def _exact(
     return samples, impacts
 
 
-def _raise_unless_ok(status: int, periods: int) -> None:
+def raise_unless_ok(status: int, periods: int) -> None:
+    """Raise the RuntimeError that says why a march of `periods` mesh periods stopped, if it did."""
     if status == ESCAPED:
         raise RuntimeError(
             f"the motion escapes to infinity within {periods} mesh periods: contact is parametrically unstable at "

@@ -97,7 +97,10 @@ def build_book(book: Book, *, progress: bool = True) -> Path:
     shutil.rmtree(staging, ignore_errors=True)
     (staging / "chapters").mkdir(parents=True)
     for chapter in chapters:
-        execute(chapter, staging / "chapters" / chapter.path.name, progress=progress)
+        output = staging / "chapters" / chapter.path.name
+        notebook = execute(chapter, output, progress=progress)
+        notebook.metadata.pop("papermill", None)  # it names the directories of this machine; readers can download it
+        nbformat.write(notebook, output)
     _put_in_place(staging / "chapters", book.executed)
     site = _render(book.root, staging)
     _trim_mathjax(site / "_static" / "mathjax")
