@@ -6,16 +6,20 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 from gearpair import published
 from gearpair.batches import Status
 from gearpair.bifurcation_curves import BifurcationCurve, continue_bifurcation
-from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit, find_branches
+from gearpair.branch_search import find_branches
+from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit
 from gearpair.drive import GearDrive
 from gearpair.exponents import lyapunov_exponents
 from gearpair.impacts import ImpactState, impact_state
 from gearpair.initial_conditions import basins
+from gearpair.iso6336 import IsoStiffness, iso_stiffness
 from gearpair.maps import parameter_map
+from gearpair.meshing import MeshStiffness, mesh_stiffness
 from gearpair.motion import Impacts, Trajectory, stroboscopic_map, trajectory
 from gearpair.orbits import NewtonStatus, PeriodicOrbit, find_orbits, periodic_orbit
 from gearpair.oscillator import Oscillator
 from gearpair.spectra import Spectrum, spectrum
+from gearpair.spurpair import SpurPair
 from gearpair.steady import SteadyState, steady_state
 from gearpair.stiffness import StiffnessWave
 from gearpair.sweeps import sweep
@@ -27,10 +31,13 @@ __all__ = [
     "GearDrive",
     "ImpactState",
     "Impacts",
+    "IsoStiffness",
+    "MeshStiffness",
     "NewtonStatus",
     "Oscillator",
     "PeriodicOrbit",
     "Spectrum",
+    "SpurPair",
     "Status",
     "SteadyState",
     "StiffnessWave",
@@ -42,7 +49,9 @@ __all__ = [
     "find_branches",
     "find_orbits",
     "impact_state",
+    "iso_stiffness",
     "lyapunov_exponents",
+    "mesh_stiffness",
     "parameter_map",
     "published",
     "runge_kutta_section",

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from gearpair._arclength import Step, Vector, correct, follow, null_vector
 from gearpair._checks import check_count, check_number
-from gearpair.branches import TOUCHING, Bifurcation, Cycle, Kind, OrbitProblem
+from gearpair._orbit_problem import DIFFERENCE, Cycle, OrbitProblem
+from gearpair.branches import TOUCHING, Bifurcation, Kind
 
-DIFFERENCE = 1e-6
 LOST = 1e-6  # residual of the bifurcation's equation beyond which its turning point has vanished
 FIRST_STEP, SMALLEST_STEP, LARGEST_STEP = 1e-3, 1e-8, 2e-2
 

@@ -8,28 +8,16 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq, root
 
 from gearpair._arclength import Step, Vector, between, correct, follow
 from gearpair._checks import check_count, check_number
-from gearpair._flow.cells import Parameters
-from gearpair._flow.cycle import map_at, plain_map_at, turns_at
-from gearpair._flow.march import OK
+from gearpair._flow.cycle import map_at
+from gearpair._orbit_problem import Cycle, OrbitProblem
 from gearpair.impacts import ImpactState, impact_state
-from gearpair.orbits import (
-    MAX_TURNS_PER_PERIOD,
-    SAME_ORBIT,
-    NewtonStatus,
-    PeriodicOrbit,
-    find_orbits,
-    multipliers_of,
-    orbit_at,
-    periodic_orbit,
-)
-from gearpair.oscillator import SCALARS, Oscillator
+from gearpair.orbits import NewtonStatus, PeriodicOrbit, multipliers_of, orbit_at
+from gearpair.oscillator import Oscillator
 
 Kind = Literal["fold", "flip", "grazing"]
-DIFFERENCE = 1e-6  # relative step of the central difference by the parameter
 FIRST_STEP, SMALLEST_STEP, LARGEST_STEP = 2e-3, 1e-9, 2e-2  # in scaled arc length
 MERGED = 0.1  # where two points pass each other by less than this share of how far they moved, they have met
 LARGEST_X = 20.0  # branches that run to infinity, as contact's parametric resonance makes them, are left here
@@ -115,118 +103,6 @@ class Branch:
     def impact_states(self) -> list[ImpactState]:
         """The impact state of each orbit."""
         return [impact_state(low, high) for low, high in zip(self.x_min.tolist(), self.x_max.tolist(), strict=True)]
-
-
-@dataclass(frozen=True)
-class Cycle:
-    """One orbit of a branch as the continuation sees it."""
-
-    points: NDArray[np.float64]
-    monodromy: NDArray[np.float64]
-    x_min: float
-    x_max: float
-    contacts: tuple[int, int]
-    turns: NDArray[np.float64]  # (n, 2): mesh periods since the first point and X where X' = 0
-
-    @property
-    def grazing_turn(self) -> tuple[float, float]:
-        """Of the turning point nearest to a boundary: when it is (mesh periods), and that boundary."""
-        away = np.abs(np.abs(self.turns[:, 1]) - 1.0)
-        when, x = self.turns[np.argmin(away)]
-        return float(when), 1.0 if x > 0.0 else -1.0
-
-    @property
-    def gap(self) -> float:
-        """Signed distance of the turning point nearest to a boundary from it."""
-        return self.gap_of(*self.grazing_turn)
-
-    def gap_of(self, when: float, boundary: float) -> float:
-        """Signed distance from `boundary` of the turning point nearest in time to `when`."""
-        n = len(self.points)
-        apart = np.abs((self.turns[:, 0] - when + 0.5 * n) % n - 0.5 * n)
-        return float(self.turns[np.argmin(apart), 1] - boundary)
-
-    @property
-    def fold_test(self) -> float:
-        """(mu_1 - 1)(mu_2 - 1)."""
-        return float((self.monodromy[0, 0] - 1.0) * (self.monodromy[1, 1] - 1.0) - self._off)
-
-    @property
-    def flip_test(self) -> float:
-        """(mu_1 + 1)(mu_2 + 1)."""
-        return float((self.monodromy[0, 0] + 1.0) * (self.monodromy[1, 1] + 1.0) - self._off)
-
-    @property
-    def half_gap(self) -> Vector:
-        """Difference of the points half a period apart: zero where the period halves; ones for odd periods."""
-        n = len(self.points)
-        return self.points[n // 2] - self.points[0] if n % 2 == 0 else np.ones(2)
-
-    @property
-    def _off(self) -> float:
-        return float(self.monodromy[0, 1] * self.monodromy[1, 0])
-
-
-class OrbitProblem:
-    """The equations map(x, v; parameters) = (x, v) in scaled unknowns (x, v, parameters / scales)."""
-
-    def __init__(self, osc: Oscillator, period: int, scales: dict[str, float]) -> None:
-        for name in scales:
-            osc.parameter(name)
-        self.osc, self.period = osc, period
-        self.names, self.scales = tuple(scales), np.array(list(scales.values()))
-
-    def unknowns(self, x: float, v: float) -> Vector:
-        """The scaled unknowns of a state at the oscillator's own parameters."""
-        return np.array([x, v, *(self.osc.parameter(n) / s for n, s in zip(self.names, self.scales, strict=True))])
-
-    def values(self, u: Vector) -> Vector:
-        """The parameters' values."""
-        return u[2:] * self.scales
-
-    def oscillator(self, u: Vector) -> Oscillator:
-        """The oscillator at `u`."""
-        return self.osc.replace(**dict(zip(self.names, self.values(u).tolist(), strict=True)))
-
-    def parameters(self, u: Vector) -> Parameters:
-        """The kernels' parameters at `u`."""
-        changes = dict(zip(self.names, self.values(u).tolist(), strict=True))
-        if all(name in SCALARS for name in changes):  # the quick way, free to step a little out of range
-            return self.osc._flow_parameters._replace(**changes)
-        return self.osc.replace(**changes)._flow_parameters
-
-    def equations(self, u: Vector) -> tuple[Vector, NDArray[np.float64]] | None:
-        """Residual and Jacobian; None where the motion cannot be followed."""
-        try:
-            monodromy = np.empty((2, 2))
-            status, x, v = map_at(self.parameters(u), u[0], u[1], self.period, monodromy)
-            jacobian = np.empty((2, len(u)))
-            jacobian[:, :2] = monodromy - np.eye(2)
-            for k in range(2, len(u)):
-                step = np.zeros(len(u))
-                step[k] = DIFFERENCE * max(1.0, abs(u[k]))
-                right = plain_map_at(self.parameters(u + step), u[0], u[1], self.period)
-                left = plain_map_at(self.parameters(u - step), u[0], u[1], self.period)
-                if status != OK or right[0] != OK or left[0] != OK:
-                    return None
-                jacobian[:, k] = (np.array(right[1:]) - np.array(left[1:])) / (2.0 * step[k])
-        except ValueError:  # a wave parameter out of range
-            return None
-        return np.array([x - u[0], v - u[1]]), jacobian
-
-    def cycle(self, u: Vector) -> Cycle:
-        """The orbit at a solution `u`."""
-        p = self.parameters(u)
-        points = np.empty((self.period, 2))
-        points[0] = u[:2]
-        for i in range(1, self.period):
-            points[i] = plain_map_at(p, *points[i - 1], 1)[1:]
-        monodromy = np.empty((2, 2))
-        map_at(p, u[0], u[1], self.period, monodromy)
-        turns = np.empty((MAX_TURNS_PER_PERIOD * self.period, 3))
-        _, n, drive, coast = turns_at(p, u[0], u[1], self.period, turns)
-        x = np.concatenate([turns[:n, 1], points[:, 0]])
-        return Cycle(points, monodromy, float(x.min()), float(x.max()), (drive, coast), turns[:n, :2].copy())
 
 
 def continue_orbit(
@@ -363,7 +239,11 @@ def _merging(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> Step[Cycl
     share = before @ (before - after) / np.sum((before - after) ** 2)
     if np.linalg.norm(before + share * (after - before)) > MERGED * np.linalg.norm(before - after):
         return None
-    half = OrbitProblem(problem.osc, problem.period // 2, dict(zip(problem.names, problem.scales.tolist(), strict=True)))
+    from scipy.optimize import root  # here, so that importing gearpair stays quick
+
+    half = OrbitProblem(
+        problem.osc, problem.period // 2, dict(zip(problem.names, problem.scales.tolist(), strict=True))
+    )
 
     def flip(u: Vector) -> Vector:
         found = half.equations(u)
@@ -393,6 +273,8 @@ def _locate(
     problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle], test: Callable[[Cycle], float]
 ) -> Step[Cycle] | None:
     """The step between `a` and `b` where `test` is zero (it changes sign), or None where the branch is lost."""
+
+    from scipy.optimize import brentq  # here, so that importing gearpair stays quick
 
     def signed(share: float) -> float:
         found = between(problem.equations, a.u, b.u, share)
@@ -497,99 +379,8 @@ def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
     for distance in (1e-3, 1e-4, 1e-2, 1e-5):
         found = correct(problem.equations, u + distance * normal, normal)
         if found is not None and np.max(np.abs(problem.cycle(found[0]).half_gap)) > distance:
-            return orbit_at(
-                problem.oscillator(found[0]), *found[0][:2].tolist(), problem.period, NewtonStatus.CONVERGED
-            )
+            x, v = found[0][:2].tolist()
+            return orbit_at(problem.oscillator(found[0]), x, v, problem.period, NewtonStatus.CONVERGED)
     raise RuntimeError(
         f"no orbit of period {2 * bifurcation.period} was found near the flip at {name} = {bifurcation.value}"
     )
-
-
-def find_branches(
-    osc: Oscillator,
-    parameter: str,
-    lower: float,
-    upper: float,
-    *,
-    max_period: int = 4,
-    n_values: int = 11,
-    n_starts: int = 100,
-    largest_step: float = LARGEST_STEP,
-) -> list[Branch]:
-    """The branches of periodic orbits that a search finds in a range of one parameter.
-
-    Orbits are looked for from many starts at evenly spaced values; each that lies on no branch yet is
-    continued, and so is the doubled branch of each flip, up to `max_period`.
-
-    Parameters
-    ----------
-    osc : Oscillator
-    parameter : str
-        One of ``osc.parameters``.
-    lower, upper : float
-        The range of the parameter.
-    max_period : int
-        The longest period followed, in mesh periods.
-    n_values : int
-        Values at which orbits are looked for.
-    n_starts : int
-        Starts per value and period, as in `find_orbits`.
-    largest_step : float
-        As in `continue_orbit`.
-
-    Returns
-    -------
-    list of Branch
-        In the order found. A finite search can miss some.
-
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
-    """
-    branches: list[Branch] = []
-    for value in np.linspace(lower, upper, check_count("n_values", n_values)).tolist():
-        waiting: list[PeriodicOrbit | Bifurcation] = [
-            *find_orbits(osc.replace(**{parameter: value}), max_period, n_starts=n_starts)
-        ]
-        while waiting:
-            orbit = _start(branches, waiting.pop(0), lower, upper)
-            if orbit is not None:
-                branch = continue_orbit(orbit, parameter, lower, upper, largest_step=largest_step)
-                branches.append(branch)
-                waiting += [b for b in branch.bifurcations if b.kind == "flip" and 2 * b.period <= max_period]
-    return branches
-
-
-def _start(
-    branches: list[Branch], found: PeriodicOrbit | Bifurcation, lower: float, upper: float
-) -> PeriodicOrbit | None:
-    """The orbit to continue from an orbit or a flip, or None where that leads to nothing new."""
-    if isinstance(found, PeriodicOrbit):
-        large = max(-found.x_min, found.x_max) > LARGEST_X
-        return None if large or any(_on_branch(branch, found) for branch in branches) else found
-    for branch in branches:
-        if branch.period == 2 * found.period and np.any(np.abs(branch.values[[0, -1]] - found.value) < 1e-6):
-            return None
-    try:
-        orbit = doubled_orbit(found)
-    except RuntimeError:
-        return None
-    return orbit if lower <= orbit.oscillator.parameter(found.parameter) <= upper else None
-
-
-def _on_branch(branch: Branch, orbit: PeriodicOrbit) -> bool:
-    """Whether Newton's method, started from the branch interpolated to the orbit's value, leads to the orbit."""
-    if branch.period != orbit.period:
-        return False
-    value = orbit.oscillator.parameter(branch.parameter)
-    left, right = branch.values[:-1], branch.values[1:]
-    for i in np.flatnonzero((np.minimum(left, right) <= value) & (value <= np.maximum(left, right))):
-        share = (value - left[i]) / (right[i] - left[i]) if right[i] != left[i] else 0.0
-        x, v = (1.0 - share) * branch.points[i, 0] + share * branch.points[i + 1, 0]
-        if np.min(np.max(np.abs(orbit.points - (x, v)), axis=1)) > 0.1:
-            continue
-        found = periodic_orbit(orbit.oscillator, x, v, orbit.period)
-        if found.converged and np.min(np.max(np.abs(orbit.points - found.points[0]), axis=1)) < SAME_ORBIT:
-            return True
-    return False

@@ -138,7 +138,7 @@ def foundation_coefficients(half_angle: float, radius_ratio: float) -> Array:
     array([6.91 , 1.306, 4.048, 0.403])
     """
     theta, h = half_angle, radius_ratio
-    return np.dot(_SAINSOT, [1 / theta**2, h**2, h / theta, 1 / theta, h, 1.0])
+    return np.asarray(_SAINSOT @ np.array([1 / theta**2, h**2, h / theta, 1 / theta, h, 1.0]))
 
 
 def foundation_compliance(tooth: ToothProfile, roll: ArrayLike) -> Array:

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
-_HARMONICS = 600
+_HARMONICS = 400
 
 
 def ring_compliance(
@@ -91,10 +91,9 @@ def _ring_harmonics(radius_ratio: float, poisson_ratio: float, n_harmonics: int)
     n = np.arange(1, n_harmonics + 1, dtype=float)
     powers = np.stack([n + 1, n - 1, 1 - n, -1 - n], axis=-1)
     k = n[:, None]
+    # g / f of a mode r^p, from the radial equilibrium
     with np.errstate(invalid="ignore", divide="ignore"):
-        ratio = -(plane * ((powers**2 - 1) + (powers - 1) * nu + (1 - powers) * nu) - shear * k**2) / (
-            k * (plane * ((powers - 1) * nu - (1 - nu)) + shear * (powers - 1))
-        )
+        ratio = -(plane * (powers**2 - 1) - shear * k**2) / (k * (plane * (powers * nu - 1) + shear * (powers - 1)))
     ratio[:, 1] = -1.0  # divergence-free and irrotational: u = grad(r^n cos(n theta))
     ratio[0, 2] = -(1 + nu) / (3 - nu)  # n = 1: u_r = ln(r), u_theta = -ln(r) + this
 

@@ -18,7 +18,7 @@ from gearpair.compliance import foundation_compliance, hertz_compliance, in_foun
 from gearpair.gear_body import ring_compliance
 from gearpair.spurpair import SpurPair
 from gearpair.stiffness import Rectangle, StiffnessWave
-from gearpair.tooth_profile import Root, ToothProfile
+from gearpair.tooth_profile import ROOTS, Root, ToothProfile
 
 Array = NDArray[np.float64]
 Coupling = Literal["summed", "ring"]
@@ -208,7 +208,7 @@ def mesh_stiffness(
     >>> round(summed.mean / 1e6), round(ring.mean / 1e6)
     (385, 307)
     """
-    check_choice("root", root, ("trochoid", "straight", "base_circle"))
+    check_choice("root", root, ROOTS)
     check_choice("coupling", coupling, COUPLINGS)
     n_phases = check_count("n_phases", n_phases, at_least=2)
     if coupling == "ring" and not foundation:
@@ -217,16 +217,19 @@ def mesh_stiffness(
     ratio = pair.contact_ratio
     whole = math.floor(ratio + 1e-12)
     part = ratio - whole if ratio - whole > 1e-12 else 0.0
-    zones = []
-    for left, right, count in ((0.0, part, whole + 1), (part, 1.0, whole)):
-        if right > left:
-            nodes = left + (right - left) * (1 + _NODES) / 2
-            zones.append(Legendre(_legendre(model.shared(nodes, count).sum(axis=0)), domain=[left, right]))
     phase = np.arange(n_phases) / n_phases
     pairs = np.where(phase < part, whole + 1, whole)
     forces = np.zeros((int(pairs.max()), n_phases))
-    for count in set(pairs.tolist()):
-        forces[:count, pairs == count] = model.shared(phase[pairs == count], count)
+    zones = []
+    for left, right, count in ((0.0, part, whole + 1), (part, 1.0, whole)):
+        if right > left:
+            # smooth between two changes of the number of pairs: 24 Gauss nodes give it to rounding
+            nodes = left + (right - left) * (1 + _NODES) / 2
+            series = _legendre(model.shared(nodes, count))
+            zones.append(Legendre(series.sum(axis=0), domain=[left, right]))
+            inside = pairs == count
+            places = 2 * (phase[inside] - left) / (right - left) - 1
+            forces[:count, inside] = series @ legvander(places, len(_NODES) - 1).T
     stiffness = forces.sum(axis=0)
     path = np.linspace(0.0, ratio, math.ceil(ratio * n_phases) + 1)
     parts = model.components(path)
@@ -329,9 +332,9 @@ class _Model:
 
 
 def _legendre(values: Array) -> Array:
-    """Legendre coefficients of a function given at the Gauss nodes."""
+    """Legendre coefficients of functions given at the Gauss nodes, shape (..., 24) both."""
     order = np.arange(len(_NODES))
-    return np.asarray((order + 0.5) * (legvander(_NODES, len(_NODES) - 1).T @ (_WEIGHTS * values)))
+    return np.asarray((order + 0.5) * ((_WEIGHTS * values) @ legvander(_NODES, len(_NODES) - 1)))
 
 
 def _integral(curve: Legendre, left: float, right: float) -> float:

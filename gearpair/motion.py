@@ -208,7 +208,7 @@ def trajectory(
     samples, impacts = run(
         osc, float(xs), float(vs), n_periods, n_transient, samples_per_period, method=method, rtol=rtol, atol=atol
     )
-    tau = np.arange(len(samples)) * (osc.period / samples_per_period)
+    tau = np.linspace(0.0, n_periods * osc.period, len(samples))
     return Trajectory(osc, tau, samples[:, 0], samples[:, 1], impacts, samples_per_period, method)
 
 

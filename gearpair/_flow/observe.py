@@ -7,8 +7,8 @@ from .cells import START, WIDTH
 from .closed_form import TERMS, evaluate
 from .event_search import INSIDE, UNDECIDED, least_step, next_turn
 from .march import (
-    EVENT_UNDECIDED,
     ESCAPED,
+    EVENT_UNDECIDED,
     MAX_EVENTS_PER_PERIOD,
     OK,
     TOO_MANY_EVENTS,

@@ -1,7 +1,7 @@
 """Finite-element gear bodies with one or several teeth: run once, the results kept beside this file.
 
     pip install scikit-fem gmsh meshio
-    python tests/finite_elements/run.py          some minutes; writes results.json beside this file
+    python tests/finite_elements/run.py          about two minutes; writes results.json beside it
 
 Plane stress, quadratic triangles, E = b = module = 1, bore fixed. A unit force acts on a node of the flank along
 the line of action. What is recorded is the displacement along each load's own line of action of
