@@ -13,6 +13,7 @@ from gearpair.drive import GearDrive
 from gearpair.exponents import lyapunov_exponents
 from gearpair.impacts import ImpactState, impact_state
 from gearpair.initial_conditions import basins
+from gearpair.integrators import apparent_period, runge_kutta_section, runge_kutta_sweep
 from gearpair.iso6336 import IsoStiffness, iso_stiffness
 from gearpair.maps import parameter_map
 from gearpair.meshing import MeshStiffness, mesh_stiffness
@@ -37,6 +38,9 @@ from gearpair.sweeps import sweep
 from gearpair.tables import Table
 
 __all__ = [
+    "apparent_period",
+    "runge_kutta_section",
+    "runge_kutta_sweep",
     "Bifurcation",
     "BifurcationCurve",
     "Branch",

@@ -108,8 +108,9 @@ def runge_kutta_sweep(
     Returns
     -------
     xarray.Dataset
-        Dimensions ``(parameter, sample)``: ``x``, ``v`` (nan where the integrator gave up); per value ``period``, the smallest
-        that all kept points repeat with (0 when none up to half of them), and ``calls`` of the right-hand side.
+        Dimensions ``(parameter, sample)``: ``x``, ``v`` (nan where the integrator gave up); per value ``period``, the
+        smallest that all kept points repeat with (0 when none up to half of them), and ``calls`` of the
+        right-hand side.
 
     Raises
     ------

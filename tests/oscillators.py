@@ -51,7 +51,11 @@ def degenerate_cases() -> dict[str, tuple[gp.Oscillator, float, float]]:
                 3.0,
                 0.5,
             )
-        cases[f"zeta^2 = k (1 + {d})"] = (level(1.0, mesh_frequency=0.8, damping_ratio=float(np.sqrt(1 + d))), 1.5, -2.0)
+        cases[f"zeta^2 = k (1 + {d})"] = (
+            level(1.0, mesh_frequency=0.8, damping_ratio=float(np.sqrt(1 + d))),
+            1.5,
+            -2.0,
+        )
     for zeta in (1.5, 10.0, 100.0):
         cases[f"overdamped, zeta = {zeta}"] = gp.Oscillator(damping_ratio=zeta, mesh_frequency=1.3), 2.0, -5.0
     for omega in (0.05, 25.0):

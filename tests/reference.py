@@ -137,7 +137,9 @@ class Piece:
             after = self.at(b)[0]
             for boundary, left in ((ceiling, after > ceiling), (floor, after < floor)):
                 if left:
-                    return bisect(lambda h, boundary=boundary: self.at(h)[0] - boundary, a, b, before - boundary), boundary
+                    return bisect(
+                        lambda h, boundary=boundary: self.at(h)[0] - boundary, a, b, before - boundary
+                    ), boundary
             before = after
         return None
 
@@ -233,6 +235,10 @@ def entered(osc, x, v, theta):
     if abs(x) != 1:
         return int(x > 1) - int(x < -1)
     amplitude = mpf(osc.error_amplitude) * mpf(osc.mesh_frequency) ** 2
-    rates = (v, mpf(osc.mean_force) + amplitude * mp.sin(theta) - 2 * mpf(osc.damping_ratio) * v, amplitude * mp.cos(theta))
+    rates = (
+        v,
+        mpf(osc.mean_force) + amplitude * mp.sin(theta) - 2 * mpf(osc.damping_ratio) * v,
+        amplitude * mp.cos(theta),
+    )
     way = next((rate for rate in rates if rate != 0), mpf(0))
     return int(x) if way * x > 0 else 0
