@@ -208,7 +208,7 @@ def trajectory(
     samples, impacts = run(
         osc, float(xs), float(vs), n_periods, n_transient, samples_per_period, method=method, rtol=rtol, atol=atol
     )
-    tau = np.arange(len(samples)) * (osc.period / samples_per_period)
+    tau = np.linspace(0.0, n_periods * osc.period, len(samples))
     return Trajectory(osc, tau, samples[:, 0], samples[:, 1], impacts, samples_per_period, method)
 
 
@@ -216,11 +216,11 @@ def _exact(
     osc: Oscillator, x: float, v: float, n_periods: int, n_transient: int, samples_per_period: int, **_: Any
 ) -> tuple[NDArray[np.float64], Impacts]:
     status, x, v = march(osc._cells, x, v, n_transient, np.empty(TERMS))
-    _raise_unless_ok(status, n_transient)
+    raise_unless_ok(status, n_transient)
     samples = np.empty((n_periods * samples_per_period + 1, 2))
     crossings = np.empty((0, 4))
     status, done, n = record(osc._cells, x, v, n_periods, samples_per_period, samples, crossings)
-    _raise_unless_ok(status, n_transient + done)
+    raise_unless_ok(status, n_transient + done)
     crossings = np.empty((n, 4))
     record(osc._cells, x, v, n_periods, samples_per_period, samples, crossings)
     impacts = Impacts(
@@ -229,7 +229,8 @@ def _exact(
     return samples, impacts
 
 
-def _raise_unless_ok(status: int, periods: int) -> None:
+def raise_unless_ok(status: int, periods: int) -> None:
+    """Raise the RuntimeError that says why a march of `periods` mesh periods stopped, if it did."""
     if status == ESCAPED:
         raise RuntimeError(
             f"the motion escapes to infinity within {periods} mesh periods: contact is parametrically unstable at "

@@ -136,9 +136,9 @@ class Oscillator:
         return self.mean_force + self.error_amplitude * self.mesh_frequency**2 * np.sin(angle)
 
     @cached_property
-    def _cells(self) -> Cells:
-        """The tables that the kernels march over."""
-        p = Parameters(
+    def _flow_parameters(self) -> Parameters:
+        """What the kernels take: plain floats and arrays."""
+        return Parameters(
             self.mean_force,
             self.error_amplitude,
             self.error_phase,
@@ -147,7 +147,11 @@ class Oscillator:
             np.array([*self.stiffness.edges, 1.0]),
             np.array(self.stiffness.levels),
         )
-        return build_cells(p)
+
+    @cached_property
+    def _cells(self) -> Cells:
+        """The tables that the kernels march over."""
+        return build_cells(self._flow_parameters)
 
 
 SCALARS = tuple(f.name for f in fields(Oscillator) if f.name != "stiffness")

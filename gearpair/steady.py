@@ -11,6 +11,7 @@ from gearpair._flow.settle import Settled
 from gearpair.batches import STATUSES, SettleSettings, Status, settle_lanes
 from gearpair.impacts import ImpactState, impact_state
 from gearpair.motion import check_starts
+from gearpair.orbits import multipliers_of
 from gearpair.oscillator import Oscillator
 
 
@@ -22,7 +23,8 @@ class SteadyState:
     ----------
     oscillator : Oscillator
     status : Status
-        ``"periodic"``, ``"aperiodic"``, ``"unsettled"``, ``"escaped"`` or ``"capped"``; ``status.remedy`` says what to do.
+        ``"periodic"``, ``"aperiodic"``, ``"unsettled"``, ``"escaped"`` or ``"capped"``;
+        ``status.remedy`` says what to do.
     period : int or None
         In mesh periods; None unless periodic.
     points : ndarray of float, shape (n, 2)
@@ -89,10 +91,11 @@ def steady_state(
 
     Notes
     -----
-    A motion is *periodic* when it returns within 1e-8 of itself (relative to max(1, |X|, |X'|)) and Newton's method
-    finds a stable orbit of that period within 1e-6 of it; after the whole transient, also when it approaches a stable orbit
-    within 1e-2. The points and multipliers are those of the orbit, exact to rounding. Otherwise it is
-    *aperiodic* when its largest Lyapunov exponent exceeds four standard errors, and *unsettled* when not.
+    A motion is *periodic* when it returns within 1e-8 of itself (relative to max(1, |X|, |X'|)) and Newton's
+    method finds a stable orbit of that period within 1e-6 of it; after the whole transient, also when it
+    approaches a stable orbit within 1e-2. The points and multipliers are those of the orbit, exact to rounding.
+    Otherwise it is *aperiodic* when its largest Lyapunov exponent exceeds four standard errors, and *unsettled*
+    when not.
 
     Examples
     --------
@@ -108,18 +111,6 @@ def steady_state(
     )
     out = settle_lanes([osc], np.array([[xs, vs]]), settings, carry=True)
     return describe(osc, out, 0)
-
-
-def multipliers_of(monodromy: NDArray[np.float64]) -> NDArray[np.complex128]:
-    """Eigenvalues of 2 x 2 matrices, shape (..., 2, 2), the largest modulus first (then the larger imaginary part)."""
-    half = 0.5 * (monodromy[..., 0, 0] + monodromy[..., 1, 1])
-    determinant = monodromy[..., 0, 0] * monodromy[..., 1, 1] - monodromy[..., 0, 1] * monodromy[..., 1, 0]
-    root = np.sqrt(half * half - determinant + 0j)
-    first = half + np.where(half < 0.0, -1.0, 1.0) * root
-    first = np.where(root.real == 0.0, half + root, first)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        second = np.where(root.real == 0.0, half - root, determinant / first)
-    return np.stack([first, second], axis=-1)
 
 
 def describe(osc: Oscillator, out: Settled, i: int) -> SteadyState:

@@ -63,7 +63,8 @@ class StiffnessWave:
         object.__setattr__(self, "levels", levels)
         if len(edges) == 0 or len(edges) != len(levels):
             raise ValueError(
-                f"edges and levels must have the same length, at least 1; got {len(edges)} edges and {len(levels)} levels"
+                "edges and levels must have the same length, at least 1; "
+                f"got {len(edges)} edges and {len(levels)} levels"
             )
         if edges[0] != 0.0:
             raise ValueError(f"edges[0] must be 0 (the start of the mesh period), got {edges[0]}")

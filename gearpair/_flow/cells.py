@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ._kernel import kernel
-from .closed_form import DEGREE, REACH, TERMS, fastest_rate, fill_basis
+from .closed_form import DEGREE, REACH, TERMS, fastest_rate, fill_basis, fourth_derivative_bound
 
 # Columns of `Cells.maps`: x1 = XX x + XV v + X0, v1 = VX x + VV v + V0, and the spread
 # SX |x - s| + SV |v| + S0 >= max |w^4 X''''| / 384 over the cell.
@@ -153,12 +153,3 @@ def fill_map(cells, j, region):
         + fourth_derivative_bound(basis[3], 1.0) * abs(sine)
         + fourth_derivative_bound(basis[4], 1.0) * abs(cosine)
     ) / 384.0
-
-
-@kernel
-def fourth_derivative_bound(series, end):
-    """``max |p''''|`` of a power series p on [0, end], from above: the sum of its terms' moduli."""
-    bound = 0.0
-    for n in range(DEGREE, 3, -1):
-        bound = bound * end + n * (n - 1) * (n - 2) * (n - 3) * abs(series[n])
-    return bound

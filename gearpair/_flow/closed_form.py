@@ -24,10 +24,7 @@ REACH = 0.6  # REACH**TERMS / TERMS! = 1e-17: the first neglected term
 @kernel
 def fastest_rate(kappa: float, zeta: float, omega: float) -> float:
     """The largest rate of a linear piece: forcing frequency or modulus of a characteristic root."""
-    if zeta * zeta > kappa:
-        root = zeta + np.sqrt(zeta * zeta - kappa)
-    else:
-        root = np.sqrt(kappa)
+    root = zeta + np.sqrt(zeta * zeta - kappa) if zeta * zeta > kappa else np.sqrt(kappa)
     return max(omega, root)
 
 
@@ -93,3 +90,12 @@ def evaluate_jerk(series, t):
     for n in range(DEGREE, 2, -1):
         dddp = dddp * t + n * (n - 1) * (n - 2) * series[n]
     return p, dp, ddp, dddp
+
+
+@kernel
+def fourth_derivative_bound(series, end):
+    """``max |p''''|`` of a power series p on [0, end], from above: the sum of its terms' moduli."""
+    bound = 0.0
+    for n in range(DEGREE, 3, -1):
+        bound = bound * end + n * (n - 1) * (n - 2) * (n - 3) * abs(series[n])
+    return bound

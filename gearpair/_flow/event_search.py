@@ -19,7 +19,7 @@ certificates, cheapest first:
 import numpy as np
 
 from ._kernel import kernel
-from .closed_form import evaluate, evaluate_jerk
+from .closed_form import TERMS, evaluate, evaluate_jerk, fourth_derivative_bound
 
 MONOTONE = 384.0 * np.sqrt(3.0) / 216.0 / 3.0 * 1.01
 ROUNDING = 2.0**-52
@@ -42,7 +42,7 @@ def certified_step(d, u, m):
 
 @kernel
 def longest_step(d, u, a, j, fourth, end):
-    """The longest certified step up to `end` from a distance d with derivatives u, a, j and a fourth of at most `fourth`."""
+    """The longest certified step up to `end` from distance d, derivatives u, a, j, a fourth within +-`fourth`."""
     step = 0.0
     while end > step:
         m = a + min(0.0, j * end) - 0.5 * fourth * end * end
@@ -158,3 +158,41 @@ def step_by_step(series, floor, ceiling, end, fourth):
         if t >= end:
             return INSIDE, end, 0.0
     return UNDECIDED, t, 0.0
+
+
+@kernel
+def next_turn(series, t, end):
+    """The first root of the slope p' in [t, end], by certified steps on the slope; inf where there is none.
+
+    A root at `t` itself counts; to go on from a root, start a `least_step` later.
+    """
+    fourth = fourth_derivative_bound(series, end)
+    _bend, tiny = slope_bounds(series, end)
+    for _ in range(MAX_STEPS):
+        _p, u, a, j = evaluate_jerk(series, t)
+        if abs(u) <= tiny:
+            return t
+        if u < 0.0:
+            u, a, j = -u, -a, -j
+        t += max(longest_step(u, a, j, -fourth, 0.0, end - t), ROUNDING * end)
+        if t > end:
+            break
+    return np.inf
+
+
+@kernel
+def slope_bounds(series, end):
+    """A bound of the third derivative on [0, end], and the slope that is rounding (of X over a cell, too)."""
+    bend, scale = 0.0, 0.0
+    for n in range(TERMS - 1, 2, -1):
+        bend = bend * end + n * (n - 1) * (n - 2) * abs(series[n])
+    for n in range(TERMS - 1, 0, -1):
+        scale = scale * end + n * abs(series[n])
+    return bend, ROUNDING * max(scale, 1.0)
+
+
+@kernel
+def least_step(series, end):
+    """How far p' must be followed from a root for it to leave its rounding."""
+    bend, tiny = slope_bounds(series, end)
+    return np.sqrt(2.0 * tiny / bend)

@@ -4,8 +4,8 @@ import numpy as np
 from numba import prange
 
 from ._kernel import kernel, parallel_kernel
-from .cells import COSINE, S0, SINE, SV, SX, V0, VV, VX, WIDTH, X0, XV, XX, fourth_derivative_bound
-from .closed_form import TERMS, evaluate, expand
+from .cells import COSINE, S0, SINE, SV, SX, V0, VV, VX, WIDTH, X0, XV, XX
+from .closed_form import TERMS, evaluate, expand, fourth_derivative_bound
 from .event_search import INSIDE, UNDECIDED, first_exit, region_at
 
 # Status of a march.

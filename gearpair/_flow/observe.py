@@ -3,9 +3,9 @@
 import numpy as np
 
 from ._kernel import kernel
-from .cells import START, WIDTH, fourth_derivative_bound
-from .closed_form import TERMS, evaluate, evaluate_jerk
-from .event_search import INSIDE, ROUNDING, UNDECIDED, longest_step
+from .cells import START, WIDTH
+from .closed_form import TERMS, evaluate
+from .event_search import INSIDE, UNDECIDED, least_step, next_turn
 from .march import (
     ESCAPED,
     EVENT_UNDECIDED,
@@ -18,33 +18,17 @@ from .march import (
     region_after,
 )
 
-MAX_SLOPE_STEPS = 400
-
 
 @kernel
 def segment_extremes(series, end, low, high):
-    """Widen [low, high] to the range of the power series on [0, end]: its ends and every root of its slope.
-
-    The roots are found by certified steps on the slope, as the crossings of X are on X.
-    """
+    """Widen [low, high] to the range of the power series on [0, end]: its ends and every root of its slope."""
     p, _dp, _ddp = evaluate(series, end)
     low, high = min(low, min(series[0], p)), max(high, max(series[0], p))
-    fourth = fourth_derivative_bound(series, end)
-    tiny = 0.0  # rounding of the slope
-    for n in range(TERMS - 1, 0, -1):
-        tiny += ROUNDING * n * abs(series[n])
-    t = 0.0
-    for _ in range(MAX_SLOPE_STEPS):
-        p, u, a, j = evaluate_jerk(series, t)
-        if u < 0.0:
-            u, a, j = -u, -a, -j
-        if u <= tiny:  # a root: move on by a step that cannot pass another by more than rounding
-            low, high = min(low, p), max(high, p)
-            t += np.sqrt(tiny / (abs(j) + fourth + ROUNDING))
-        # The slope's distance from zero is u >= 0, its next derivatives a, j and one of at most `fourth`.
-        t += longest_step(max(u - tiny, 0.0), a, j, -fourth, 0.0, end - t)
-        if t >= end:
-            break
+    t = next_turn(series, 0.0, end)
+    while t <= end:
+        p, _dp, _ddp = evaluate(series, t)
+        low, high = min(low, p), max(high, p)
+        t = next_turn(series, t + least_step(series, end), end)
     return low, high
 
 

@@ -30,7 +30,7 @@ class Book:
 
     @classmethod
     def find(cls, root: Path | None = None) -> Book:
-        """The book at `root`; without one, of the working directory or a parent of it, else of the installed package."""
+        """The book at `root`; without one, of the working directory or a parent of it, else of this package."""
         places = [root] if root else [Path.cwd(), *Path.cwd().parents, Path(__file__).parents[2]]
         for place in places:
             if (place / "_toc.yml").is_file() and (place / "notebooks").is_dir():
@@ -97,7 +97,10 @@ def build_book(book: Book, *, progress: bool = True) -> Path:
     shutil.rmtree(staging, ignore_errors=True)
     (staging / "chapters").mkdir(parents=True)
     for chapter in chapters:
-        execute(chapter, staging / "chapters" / chapter.path.name, progress=progress)
+        output = staging / "chapters" / chapter.path.name
+        notebook = execute(chapter, output, progress=progress)
+        notebook.metadata.pop("papermill", None)  # it names the directories of this machine; readers can download it
+        nbformat.write(notebook, output)
     _put_in_place(staging / "chapters", book.executed)
     site = _render(book.root, staging)
     _trim_mathjax(site / "_static" / "mathjax")
@@ -138,7 +141,7 @@ def accept_outputs(book: Book, *, progress: bool = True) -> list[str]:
     """Re-execute every source notebook with its defaults and store the new outputs.
 
     All chapters run before any file is written. What differs from run to run or from machine to machine is not
-    stored: images, what was written to stderr, execution counts, papermill's notes.
+    stored: images, what was written to stderr, papermill's notes.
 
     Returns
     -------
@@ -171,7 +174,7 @@ def stable_notebook(source: Path, executed: nbformat.NotebookNode) -> nbformat.N
     )
     for cell, run in zip(notebook.cells, executed.cells, strict=True):
         if cell.cell_type == "code":
-            cell.execution_count = None
+            cell.execution_count = run.execution_count
             cell.outputs = [stable for output in run.outputs if (stable := _stable_output(output)) is not None]
     return notebook
 
@@ -179,8 +182,6 @@ def stable_notebook(source: Path, executed: nbformat.NotebookNode) -> nbformat.N
 def _stable_output(output: nbformat.NotebookNode) -> nbformat.NotebookNode | None:
     if output.get("name") == "stderr":
         return None
-    if "execution_count" in output:
-        output.execution_count = None
     if "data" in output:
         output.data = {mime: data for mime, data in output.data.items() if not mime.startswith("image/")}
         output.metadata = {key: value for key, value in output.metadata.items() if key == "scrapbook"}

@@ -74,6 +74,7 @@ def execute(
                 partial,
                 dict(values or {}),
                 kernel_name="python3",
+                language="python",
                 kernel_manager_class=ThisInterpreter,
                 progress_bar={"desc": chapter.name} if progress else False,
             )

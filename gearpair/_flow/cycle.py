@@ -1,0 +1,76 @@
+"""What a continuation asks of one oscillator: the period map with its derivative, and a cycle's turning points."""
+
+import numpy as np
+from numba import prange
+
+from ._kernel import kernel, parallel_kernel
+from .cells import START, WIDTH, build_cells
+from .closed_form import TERMS, evaluate
+from .event_search import INSIDE, UNDECIDED, least_step, next_turn
+from .march import EVENT_UNDECIDED, OK, first_region, march, next_segment, region_after
+from .tangent import march_tangent, newton
+
+
+@kernel
+def map_at(p, x, v, period, m):
+    """The `period`-fold map of oscillator `p` and its monodromy `m`: (status, x, v)."""
+    m[0, 0], m[0, 1], m[1, 0], m[1, 1] = 1.0, 0.0, 0.0, 1.0
+    return march_tangent(build_cells(p), x, v, period, m, np.empty(TERMS))
+
+
+@kernel
+def plain_map_at(p, x, v, period):
+    """`map_at` without the monodromy."""
+    return march(build_cells(p), x, v, period, np.empty(TERMS))
+
+
+@kernel
+def turns_at(p, x, v, period, turns):
+    """Turning points and impacts over `period` mesh periods: (status, n_turns, drive contacts, coast contacts).
+
+    Fills the rows of `turns` (n, 3) with (mesh periods since the start, X, X'') where X' = 0.
+    """
+    cells = build_cells(p)
+    series = np.empty(TERMS)
+    region = first_region(cells, x, v)
+    n, drive, coast = 0, 0, 0
+    for cycle in range(period):
+        for j in range(cells.level.size):
+            t = 0.0
+            while True:
+                outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
+                if outcome == UNDECIDED:
+                    return EVENT_UNDECIDED, n, drive, coast
+                n = segment_turns(cells, j, cycle, t, series, duration, turns, n)
+                if outcome == INSIDE:
+                    break
+                t += duration
+                region = region_after(region, x)
+                drive += region == 1
+                coast += region == -1
+    return OK, n, drive, coast
+
+
+@kernel
+def segment_turns(cells, j, cycle, start, series, end, turns, n):
+    """Append the turning points of a segment of cell `j` that starts at `start` and lasts `end` (widths)."""
+    span = cells.clock[j, WIDTH] / cells.period
+    t = next_turn(series, 0.0, end)
+    while t <= end and n < turns.shape[0]:
+        turns[n, 0] = cycle + cells.clock[j, START] + (start + t) * span
+        turns[n, 1], _dp, ddp = evaluate(series, t)
+        turns[n, 2] = ddp / cells.clock[j, WIDTH] ** 2
+        n += 1
+        t = next_turn(series, t + least_step(series, end), end)
+    return n
+
+
+@parallel_kernel
+def newton_starts(p, starts, period, ends, found):
+    """Newton's method from each row of `starts` (n, 2), in parallel."""
+    for i in prange(starts.shape[0]):
+        cells = build_cells(p)
+        m = np.empty((2, 2))
+        found[i], ends[i, 0], ends[i, 1], _residual = newton(
+            cells, starts[i, 0], starts[i, 1], period, m, np.empty(TERMS)
+        )

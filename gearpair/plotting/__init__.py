@@ -1,0 +1,43 @@
+"""Pictures of results: every function takes a result and, if you like, an Axes, and returns the Axes.
+
+Colours say the same everywhere (`MOTION_COLOURS`): one for each period, dark grey for chaos; they stay apart for
+colour-blind readers. Nothing is set at import: ``plt.style.use(STYLE)``, or ``with plt.style.context(STYLE):``, gives
+the book's look.
+"""
+
+from gearpair.plotting.diagrams import (
+    bifurcation_diagram,
+    exponents,
+    extremes,
+    motion_shares,
+    range_lanes,
+    range_strips,
+)
+from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
+from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
+from gearpair.plotting.style import MOTION_COLOURS, STYLE, motion_colour
+from gearpair.plotting.waves import harmonics, stiffness_wave
+
+__all__ = [
+    "MOTION_COLOURS",
+    "STYLE",
+    "attractor_points",
+    "basins",
+    "bifurcation_diagram",
+    "exponents",
+    "extremes",
+    "finite_exponents",
+    "gallery",
+    "harmonics",
+    "impact_states",
+    "motion_colour",
+    "motion_shares",
+    "phase_portrait",
+    "poincare_section",
+    "portrait",
+    "range_lanes",
+    "range_strips",
+    "spectrum",
+    "stiffness_wave",
+    "time_history",
+]

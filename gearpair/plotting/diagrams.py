@@ -1,0 +1,274 @@
+"""Diagrams over one parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.patches import Patch
+
+from gearpair.plotting.style import (
+    BACKLASH,
+    BOUNDARY,
+    INK,
+    LABELS,
+    add_motion_legend,
+    legend_name,
+    motion_colour,
+    new_axes,
+)
+from gearpair.published import Range
+from gearpair.ranges import MotionRange, motion_names, motion_order, motion_ranges, swept_parameter
+
+LETTER = 0.0115  # share of the axis that a letter of a bar's name takes
+
+
+def bifurcation_diagram(
+    sweep: xr.Dataset, ax: Axes | None = None, *, title: str = "", legend: bool = True, size: float = 1.1
+) -> Axes:
+    """Section points of X at each value of a sweep, coloured by the motion's period.
+
+    Parameters
+    ----------
+    sweep : xarray.Dataset
+        Of `gearpair.sweep`.
+    ax : Axes, optional
+    title : str
+        Stands inside the axes, top left.
+    legend : bool
+        Name the colours above the axes.
+    size : float
+        Diameter of a dot in points; those of chaotic motions are smaller.
+
+    Returns
+    -------
+    Axes
+        With one line, labelled with its name, for each kind of motion.
+    """
+    ax = new_axes(ax)
+    parameter = swept_parameter(sweep)
+    names = np.array([legend_name(name) for name in motion_names(sweep)])
+    values = sweep[parameter].values
+    for name in sorted(set(names.tolist()), key=lambda name: -int(np.sum(names == name))):
+        points = _section_points(sweep, names == name)
+        where = np.repeat(values[names == name], points.shape[1])
+        many = name in ("chaos", "unsettled")
+        ax.plot(
+            where, points.ravel(), linestyle="", marker=".", markeredgewidth=0, rasterized=True, label=name,
+            markersize=0.6 * size if many else 1.6 * size, alpha=0.5 if many else 1.0, color=motion_colour(name),
+        )  # fmt: skip
+    ax.set(xlabel=LABELS[parameter], ylabel=LABELS["section"], xlim=(values.min(), values.max()))
+    ax.annotate(title, (0.0, 1.0), xytext=(6, -4), xycoords="axes fraction", textcoords="offset points", va="top")
+    if legend:
+        add_motion_legend(ax, motion_names(sweep).tolist())
+    return ax
+
+
+def _section_points(sweep: xr.Dataset, chosen: np.ndarray) -> np.ndarray:
+    """X of the chosen motions, the repeated points of periodic ones blanked."""
+    x = sweep.x.values[chosen].copy()
+    period = sweep.period.values[chosen]
+    repeats = np.arange(x.shape[1]) >= np.where(period > 0, period, x.shape[1])[:, None]
+    x[repeats] = np.nan
+    return x
+
+
+def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """Smallest and largest X along a sweep, coloured by motion, over the strip where the teeth are out of contact.
+
+    Parameters
+    ----------
+    sweep : xarray.Dataset
+        Of `gearpair.sweep`.
+    ax : Axes, optional
+    legend : bool
+        Name the colours above the axes.
+
+    Returns
+    -------
+    Axes
+        With one line of dots each for the smallest and the largest X of every kind of motion.
+    """
+    ax = new_axes(ax)
+    parameter = swept_parameter(sweep)
+    values, names = sweep[parameter].values, motion_names(sweep)
+    shade_backlash(ax, horizontal=True)
+    for name in sorted(set(names.tolist()), key=motion_order):
+        for extreme in ("x_min", "x_max"):
+            ax.plot(
+                values[names == name], sweep[extreme].values[names == name], linestyle="", marker=".", markersize=2,
+                color=motion_colour(name), label=name if extreme == "x_min" else None,
+            )  # fmt: skip
+    ax.set(xlabel=LABELS[parameter], ylabel=r"$X_{\min}$ and $X_{\max}$", xlim=(values.min(), values.max()))
+    if legend:
+        add_motion_legend(ax, names.tolist())
+    return ax
+
+
+def shade_backlash(ax: Axes, *, horizontal: bool) -> None:
+    """The strip |X| < 1, where no teeth touch, and its two boundaries."""
+    span, line = (ax.axhspan, ax.axhline) if horizontal else (ax.axvspan, ax.axvline)
+    span(-1.0, 1.0, color=BACKLASH, zorder=-2, linewidth=0)
+    for side in (-1.0, 1.0):
+        line(side, color=BOUNDARY, linewidth=0.7, linestyle=(0, (5, 3)), zorder=-1)
+
+
+def exponents(sweep: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, label: str | None = None) -> Axes:
+    """The largest Lyapunov exponent along a sweep, with its standard error and the line at zero.
+
+    Parameters
+    ----------
+    sweep : xarray.Dataset
+        Of `gearpair.sweep`.
+    ax : Axes, optional
+    colour, label : str
+        Of the curve.
+
+    Returns
+    -------
+    Axes
+    """
+    ax = new_axes(ax, 2.2)
+    parameter = swept_parameter(sweep)
+    ordered = sweep.sortby(parameter)
+    values, largest, error = (ordered[name].values for name in (parameter, "exponent", "exponent_error"))
+    ax.axhline(0.0, color=BOUNDARY, linewidth=0.7)
+    ax.fill_between(values, largest - 2.0 * error, largest + 2.0 * error, color=colour, alpha=0.25, linewidth=0)
+    ax.plot(values, largest, color=colour, linewidth=0.9, label=label)
+    ax.fill_between(values, 0.0, largest, where=largest > 0.0, color=motion_colour("chaos"), alpha=0.25, linewidth=0)
+    ax.set(xlabel=LABELS[parameter], ylabel=LABELS["exponent"], xlim=(values.min(), values.max()))
+    return ax
+
+
+def range_strips(
+    strips: Mapping[str, xr.Dataset | Iterable[MotionRange | Range]],
+    ax: Axes | None = None,
+    *,
+    parameter: str | None = None,
+    legend: bool = True,
+) -> Axes:
+    """Ranges of motion as coloured bars, one strip for each source: what is published above what was found.
+
+    Parameters
+    ----------
+    strips : mapping of str to xarray.Dataset or ranges
+        The first stands on top. A sweep is drawn as its runs; the article's ranges come from `gearpair.published`.
+    ax : Axes, optional
+    parameter : str, optional
+        Needed only where no strip is a sweep.
+    legend : bool
+        Name the colours above the axes.
+
+    Returns
+    -------
+    Axes
+        With one bar for each range; wide ones hold their names.
+    """
+    ax = new_axes(ax, 0.7 + 0.42 * len(strips))
+    bars: list[tuple[int, float, float, str]] = []
+    for row, source in enumerate(strips.values()):
+        ranges, half = (source, 0.0) if not isinstance(source, xr.Dataset) else _runs_and_half_step(source)
+        parameter = swept_parameter(source) if isinstance(source, xr.Dataset) else parameter
+        for each in ranges:
+            parameter = getattr(each, "parameter", parameter)
+            bars.append((row, each.lower - half, each.upper + half, _strip_name(each)))
+    left, right = min(bar[1] for bar in bars), max(bar[2] for bar in bars)
+    for row, low, high, name in bars:
+        hatch = "////" if name == "complex" else None
+        ax.barh(
+            row, high - low, left=low, height=0.8, color=motion_colour(name), hatch=hatch, linewidth=0,
+            edgecolor="white", alpha=0.75 if hatch else 1.0,
+        )  # fmt: skip
+        room = (high - low) / (right - left) / LETTER - 1.0
+        text = next((text for text in (name, name.removeprefix("period ")) if len(text) <= room), "")
+        ax.text(0.5 * (low + high), row, text, ha="center", va="center", fontsize=8, color="white", weight="bold")
+    ax.set_yticks(range(len(strips)), list(strips))
+    ax.tick_params(axis="y", length=0)
+    ax.spines["left"].set_visible(False)
+    ax.set(xlim=(left, right), ylim=(len(strips) - 0.5, -0.5), xlabel=LABELS.get(parameter or "", parameter))
+    if legend:
+        add_motion_legend(ax, [bar[3] for bar in bars])
+    return ax
+
+
+def _runs_and_half_step(sweep: xr.Dataset) -> tuple[Iterable[MotionRange], float]:
+    steps = np.abs(np.diff(sweep[swept_parameter(sweep)].values))
+    return motion_ranges(sweep), 0.5 * float(steps.min()) if len(steps) else 0.0
+
+
+def _strip_name(each: MotionRange | Range) -> str:
+    if isinstance(each, Range):
+        return f"period {each.period}" if each.period else each.motion
+    return each.motion
+
+
+def range_lanes(
+    sources: Mapping[str, Iterable[MotionRange | Range]], ax: Axes | None = None, *, parameter: str | None = None
+) -> Axes:
+    """One lane for each motion with its ranges from several sources under one another; coexistence shows as overlap.
+
+    Parameters
+    ----------
+    sources : mapping of str to ranges
+        The first is drawn pale with a dark rim, the others in full colour.
+    ax : Axes, optional
+    parameter : str, optional
+        For the label of the axis, where no source is the article.
+
+    Returns
+    -------
+    Axes
+        With one bar for each range.
+    """
+    rows = [(k, each) for k, source in enumerate(sources.values()) for each in source]
+    motions = sorted({_strip_name(each) for _, each in rows}, key=motion_order)
+    ax = new_axes(ax, 1.0 + 0.3 * len(motions))
+    height = 0.84 / len(sources)
+    for k, each in rows:
+        parameter = getattr(each, "parameter", parameter)
+        motion = _strip_name(each)
+        pale = {"alpha": 0.35, "edgecolor": "black", "linewidth": 0.8} if k == 0 else {"linewidth": 0}
+        ax.barh(
+            motions.index(motion) + height * (k + 0.5) - 0.42, each.upper - each.lower, left=each.lower,
+            height=0.9 * height, color=motion_colour(motion), **pale,
+        )  # fmt: skip
+    ax.set_yticks(range(len(motions)), motions)
+    ax.tick_params(axis="y", length=0)
+    ax.set(ylim=(len(motions) - 0.5, -0.5), xlabel=LABELS.get(parameter or "", parameter))
+    ax.set_xlim(min(each.lower for _, each in rows), max(each.upper for _, each in rows))
+    for edge in range(1, len(motions)):
+        ax.axhline(edge - 0.5, color=BOUNDARY, linewidth=0.3)
+    looks = [Patch(facecolor="#BBBBBB", edgecolor="black", linewidth=0.8, alpha=0.5), Patch(facecolor="#777777")]
+    handles = looks[:1] + looks[1:] * (len(sources) - 1)
+    ax.legend(handles, list(sources), loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(sources))
+    return ax
+
+
+def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """The share of the starts that reaches each kind of motion, stacked over the parameter.
+
+    Parameters
+    ----------
+    shares : xarray.Dataset
+        Of `gearpair.motion_shares`.
+    ax : Axes, optional
+    legend : bool
+        Name the colours above the axes.
+
+    Returns
+    -------
+    Axes
+        With one filled band, labelled with its name, for each motion.
+    """
+    ax = new_axes(ax)
+    parameter = str(shares.share.dims[0])
+    values, motions = shares[parameter].values, shares.motion.values.tolist()
+    bands = shares.share.values.T
+    colours = [motion_colour(motion) for motion in motions]
+    ax.stackplot(values, bands, labels=motions, colors=colours, linewidth=0.4, edgecolor="white")
+    ax.set(xlabel=LABELS[parameter], ylabel="share of the starts", xlim=(values.min(), values.max()), ylim=(0, 1))
+    if legend:
+        add_motion_legend(ax, motions)
+    return ax

@@ -1,0 +1,227 @@
+"""Pictures of one motion, and of several side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from gearpair.motion import Trajectory, trajectory
+from gearpair.plotting.diagrams import shade_backlash
+from gearpair.plotting.style import BOUNDARY, INK, LABELS, STYLE, motion_colour, new_axes
+from gearpair.ranges import motion_name
+from gearpair.spectra import Spectrum
+from gearpair.spectra import spectrum as spectrum_of
+from gearpair.steady import SteadyState
+
+SHOWN_PERIODS = 8  # mesh periods of a time history
+SPECTRUM_PERIODS = 240  # at least so many mesh periods under a spectrum
+CHAOS_PERIODS = 4000  # and so many under the section of a chaotic motion
+LOWEST_LINE = 1e-5  # amplitudes below are rounding, not motion
+VIEWS = ("time history", "phase portrait", "Poincaré section", "spectrum")
+
+
+def time_history(
+    motion: Trajectory, ax: Axes | None = None, *, n_periods: int | None = None, colour: str = INK, impacts: bool = True
+) -> Axes:
+    """X over time, with a dot at each contact made.
+
+    Parameters
+    ----------
+    motion : Trajectory
+    ax : Axes, optional
+    n_periods : int, optional
+        Mesh periods shown, from the first; all without it.
+    colour : str
+    impacts : bool
+        Mark where teeth come into contact.
+
+    Returns
+    -------
+    Axes
+    """
+    ax = new_axes(ax)
+    last = motion.samples_per_period * n_periods + 1 if n_periods else len(motion.tau)
+    tau, x = motion.tau[:last] / motion.oscillator.period, motion.x[:last]
+    shade_backlash(ax, horizontal=True)
+    ax.plot(tau, x, color=colour)
+    if impacts:
+        made = motion.impacts.contact & (motion.impacts.tau <= motion.tau[:last][-1])
+        when = motion.impacts.tau[made] / motion.oscillator.period
+        _contact_dots(ax, when, motion.impacts.side[made].astype(float), colour)
+    ax.set(xlabel=LABELS["tau"], ylabel=LABELS["x"], xlim=(0.0, tau[-1]))
+    return ax
+
+
+def _contact_dots(ax: Axes, across: np.ndarray, up: np.ndarray, colour: str) -> None:
+    ax.plot(
+        across, up, linestyle="", marker="o", markersize=3.2, markerfacecolor="white", markeredgecolor=colour,
+        markeredgewidth=0.9, label="contact made",
+    )  # fmt: skip
+
+
+def phase_portrait(
+    motion: Trajectory, ax: Axes | None = None, *, n_periods: int | None = None, colour: str = INK, impacts: bool = True
+) -> Axes:
+    """X' over X, the strip out of contact shaded, a dot at each contact made.
+
+    Parameters
+    ----------
+    motion : Trajectory
+    ax : Axes, optional
+    n_periods : int, optional
+        Mesh periods shown, from the first; all without it.
+    colour : str
+    impacts : bool
+        Mark where teeth come into contact.
+
+    Returns
+    -------
+    Axes
+    """
+    ax = new_axes(ax, 5.0)
+    last = motion.samples_per_period * n_periods + 1 if n_periods else len(motion.tau)
+    shade_backlash(ax, horizontal=False)
+    ax.plot(motion.x[:last], motion.v[:last], color=colour, linewidth=1.2 if last < 2000 else 0.35)
+    if impacts:
+        made = motion.impacts.contact & (motion.impacts.tau <= motion.tau[:last][-1])
+        _contact_dots(ax, motion.impacts.side[made].astype(float), motion.impacts.velocity[made], colour)
+    ax.set(xlabel=LABELS["x"], ylabel=LABELS["v"])
+    return ax
+
+
+def poincare_section(
+    motion: Trajectory, ax: Axes | None = None, *, colour: str = INK, size: float | None = None
+) -> Axes:
+    """X' over X once per mesh period, at ``tau mod T = 0``.
+
+    Parameters
+    ----------
+    motion : Trajectory
+    ax : Axes, optional
+    colour : str
+    size : float, optional
+        Diameter of a dot in points; chosen by the number of points without it.
+
+    Returns
+    -------
+    Axes
+    """
+    ax = new_axes(ax, 5.0)
+    x, v = motion.x[:: motion.samples_per_period], motion.v[:: motion.samples_per_period]
+    few = len(np.unique(np.round(np.stack([x, v]), 6), axis=1).T) <= 64
+    ax.plot(
+        x, v, linestyle="", marker="o", markeredgewidth=0, color=colour, rasterized=not few,
+        markersize=size or (5.0 if few else 1.0),
+    )  # fmt: skip
+    ax.set(xlabel=LABELS["x"], ylabel=LABELS["v"])
+    return ax
+
+
+def spectrum(
+    lines: Spectrum, ax: Axes | None = None, *, period: int | None = None, highest: float = 3.0, colour: str = INK
+) -> Axes:
+    """The amplitude spectrum of X on a logarithmic scale; multiples of ``1 / period`` of the mesh frequency ruled.
+
+    Parameters
+    ----------
+    lines : Spectrum
+    ax : Axes, optional
+    period : int, optional
+        In mesh periods, where the motion is periodic: then lines are drawn, otherwise a curve.
+    highest : float
+        Where the axis ends, in units of the mesh frequency.
+    colour : str
+
+    Returns
+    -------
+    Axes
+    """
+    ax = new_axes(ax)
+    shown = (lines.frequency > 0.0) & (lines.frequency <= highest)
+    frequency, amplitude = lines.frequency[shown], lines.amplitude[shown]
+    for k in range(1, int(highest * (period or 1)) + 1):
+        ax.axvline(k / (period or 1), color=BOUNDARY, linewidth=0.5, alpha=0.45, linestyle=(0, (1, 2)), zorder=-1)
+    if period:
+        real = amplitude > LOWEST_LINE
+        ax.vlines(frequency[real], LOWEST_LINE, amplitude[real], color=colour, linewidth=1.2)
+        ax.plot(frequency[real], amplitude[real], linestyle="", marker="o", markersize=2.6, color=colour)
+    else:
+        ax.plot(frequency, amplitude, color=colour, linewidth=0.6)
+    ax.set_yscale("log")
+    ax.set(xlabel=LABELS["frequency"], ylabel="amplitude", xlim=(0, highest + 0.1), ylim=(LOWEST_LINE, 10.0))
+    ax.set_xticks(range(int(highest) + 1))
+    return ax
+
+
+def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: str = "") -> list[Axes]:
+    """A settled motion in four views: time history, phase portrait, Poincaré section, spectrum.
+
+    Parameters
+    ----------
+    state : SteadyState
+        Of `gearpair.steady_state`, bounded.
+    axes : sequence of four Axes, optional
+        A new figure without them.
+    title : str
+        Stands above the first.
+
+    Returns
+    -------
+    list of Axes
+        The four, in that order.
+    """
+    if axes is None:
+        with plt.style.context(STYLE):
+            figure = plt.figure(figsize=(8.0, 5.4))
+            axes = list(figure.subplots(2, 2).flat)
+    period = state.period
+    colour = motion_colour(motion_name(state.status, period))
+    n_periods = period * -(-SPECTRUM_PERIODS // period) if period else CHAOS_PERIODS
+    x, v = map(float, state.points[0])
+    motion = trajectory(state.oscillator, x, v, n_periods)
+    time_history(motion, axes[0], n_periods=SHOWN_PERIODS, colour=colour)
+    phase_portrait(motion, axes[1], n_periods=period or 60, colour=colour, impacts=period is not None)
+    shade_backlash(axes[2], horizontal=False)
+    poincare_section(motion, axes[2], colour=colour)
+    axes[2].set(xlim=axes[1].get_xlim(), ylim=axes[1].get_ylim())
+    spectrum(spectrum_of(motion, window="boxcar" if period else "hann"), axes[3], period=period, colour=colour)
+    axes[0].set_title(title)
+    return list(axes)
+
+
+def gallery(states: Mapping[str, SteadyState], *, parameter: str = "mesh_frequency") -> Figure:
+    """Settled motions under one another, each a row of the four views of `portrait`.
+
+    Parameters
+    ----------
+    states : mapping of str to SteadyState
+        By name, as `gearpair.representatives` gives them.
+    parameter : str
+        Whose value is told beside the name.
+
+    Returns
+    -------
+    Figure
+
+    Raises
+    ------
+    ValueError
+        For no states.
+    """
+    if not states:
+        raise ValueError("states must hold at least one motion, got none")
+    with plt.style.context({**STYLE, "font.size": 8.0, "axes.labelsize": 8.0}):
+        figure = plt.figure(figsize=(8.6, 0.5 + 1.75 * len(states)))
+        grid = figure.subplots(len(states), len(VIEWS), squeeze=False)
+        for row, (name, state) in zip(grid, states.items(), strict=True):
+            symbol = LABELS[parameter].split("$")[1]
+            portrait(state, row, title=f"{name}  (${symbol} = {state.oscillator.parameter(parameter):.4g}$)")
+        for ax, view in zip(grid[0][1:], VIEWS[1:], strict=True):
+            ax.set_title(view, weight="normal", loc="right")
+        for ax in grid[:-1].flat:
+            ax.set_xlabel("")
+    return figure

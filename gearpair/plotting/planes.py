@@ -1,0 +1,153 @@
+"""Maps over the plane of starts (X0, X0')."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap, to_rgb
+from matplotlib.patches import Patch
+
+from gearpair.impacts import ImpactState
+from gearpair.plotting.diagrams import shade_backlash
+from gearpair.plotting.style import motion_colour, new_axes
+from gearpair.ranges import IMPACT_NAMES, attractor_names, motion_name
+from gearpair.steady import SteadyState
+
+# The harsher the darker.
+IMPACT_COLOURS: Mapping[str, str] = {
+    ImpactState.NEVER_IN_CONTACT: "#FFFFFF",
+    ImpactState.NONE_DRIVE: "#F2F0F7",
+    ImpactState.NONE_COAST: "#DADAEB",
+    ImpactState.SINGLE_DRIVE: "#BCBDDC",
+    ImpactState.SINGLE_COAST: "#9E9AC8",
+    ImpactState.DOUBLE: "#54278F",
+    "": "#FFFFFF",
+}
+
+
+def attractor_colours(result: xr.Dataset) -> list[tuple[float, float, float]]:
+    """One colour for each attractor of `gearpair.basins`: its motion's, paler for the second of a kind and so on."""
+    colours, seen = [], dict[str, int]()
+    for status, period in zip(result.attractor_status.values, result.attractor_period.values, strict=True):
+        name = motion_name(str(status), int(period))
+        shade = 0.6 ** seen.get(name, 0)
+        seen[name] = seen.get(name, 0) + 1
+        red, green, blue = (1.0 - shade * (1.0 - part) for part in to_rgb(motion_colour(name)))
+        colours.append((red, green, blue))
+    return colours
+
+
+def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """Which attractor each start reaches; starts that do not stay bounded are left white.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        Of `gearpair.basins`.
+    ax : Axes, optional
+    legend : bool
+        Name the attractors above the axes.
+
+    Returns
+    -------
+    Axes
+    """
+    ax = new_axes(ax, 5.0)
+    colours = attractor_colours(result)
+    _map(ax, result, result.attractor.values + 1, [(1.0, 1.0, 1.0), *colours])
+    if legend:
+        _patches(ax, dict(zip(attractor_names(result), colours, strict=True)))
+    return ax
+
+
+def impact_states(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """In which impact state each start ends, the harsher the darker.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        Of `gearpair.basins`.
+    ax : Axes, optional
+    legend : bool
+        Name the states above the axes.
+
+    Returns
+    -------
+    Axes
+    """
+    ax = new_axes(ax, 5.0)
+    states = list(IMPACT_COLOURS)
+    numbers = np.vectorize(states.index)(result.impact_state.values)
+    _map(ax, result, numbers, [to_rgb(colour) for colour in IMPACT_COLOURS.values()])
+    if legend:
+        present = [state for i, state in enumerate(states) if np.any(numbers == i)]
+        _patches(ax, {IMPACT_NAMES[state]: to_rgb(IMPACT_COLOURS[state]) for state in present})
+    return ax
+
+
+def _map(ax: Axes, result: xr.Dataset, numbers: np.ndarray, colours: Sequence[tuple[float, float, float]]) -> None:
+    ax.pcolormesh(
+        result.x.values, result.v.values, numbers, cmap=ListedColormap(list(colours)), vmin=-0.5,
+        vmax=len(colours) - 0.5, shading="nearest", rasterized=True,
+    )  # fmt: skip
+    ax.set(xlabel="initial displacement $X_0$", ylabel="initial velocity $X_0'$")
+
+
+def _patches(ax: Axes, colours: Mapping[str, tuple[float, float, float]]) -> None:
+    handles = [
+        Patch(facecolor=colour, edgecolor="#999999", linewidth=0.5, label=name) for name, colour in colours.items()
+    ]
+    ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=1, borderaxespad=0.3)
+
+
+def attractor_points(states: Sequence[SteadyState], ax: Axes) -> Axes:
+    """The section points of periodic attractors, as white-rimmed dots over a map of their basins.
+
+    Parameters
+    ----------
+    states : sequence of SteadyState
+    ax : Axes
+
+    Returns
+    -------
+    Axes
+        With one line of dots for each periodic state.
+    """
+    for state in states:
+        if state.period:
+            name = motion_name(state.status, state.period)
+            ax.plot(
+                state.points[:, 0], state.points[:, 1], linestyle="", marker="o", markersize=5.5, label=name,
+                markerfacecolor=motion_colour(name), markeredgecolor="white", markeredgewidth=1.0,
+            )  # fmt: skip
+    return ax
+
+
+def finite_exponents(result: xr.Dataset, ax: Axes | None = None, *, largest: float | None = None) -> Axes:
+    """The largest Lyapunov exponent from each start: dark where neighbours part, pale where they stay together.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        Of `gearpair.basins`.
+    ax : Axes, optional
+    largest : float, optional
+        Where the colours end.
+
+    Returns
+    -------
+    Axes
+        With a colour bar beside it.
+    """
+    ax = new_axes(ax, 5.0)
+    shown = ax.pcolormesh(
+        result.x.values, result.v.values, result.exponent.values, cmap="cividis", vmin=0.0, vmax=largest,
+        shading="nearest", rasterized=True,
+    )  # fmt: skip
+    shade_backlash(ax, horizontal=False)
+    ax.figure.colorbar(shown, ax=ax, label=r"largest exponent $\lambda_1$", pad=0.01)
+    ax.set(xlabel="initial displacement $X_0$", ylabel="initial velocity $X_0'$")
+    return ax

@@ -1,0 +1,118 @@
+"""The look of every figure, in one place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from types import MappingProxyType
+from typing import Any
+
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+# For plt.style.use: a figure that fills the book's column, with text of the size of the book's captions.
+STYLE: dict[str, Any] = {
+    "figure.figsize": (8.0, 3.4),
+    "figure.dpi": 180,
+    "figure.constrained_layout.use": True,
+    "font.size": 9.0,
+    "axes.titlesize": 9.5,
+    "axes.titlelocation": "left",
+    "axes.titleweight": "bold",
+    "axes.labelsize": 9.0,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": "#555555",
+    "axes.linewidth": 0.7,
+    "axes.axisbelow": True,
+    "xtick.color": "#555555",
+    "ytick.color": "#555555",
+    "xtick.labelcolor": "#222222",
+    "ytick.labelcolor": "#222222",
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "lines.linewidth": 1.2,
+    "hatch.linewidth": 0.5,
+}
+
+# Okabe and Ito (2008), "Color universal design": hues that colour-blind readers tell apart.
+MOTION_COLOURS = MappingProxyType(
+    {
+        "period 1": "#0072B2",
+        "period 2": "#E69F00",
+        "period 3": "#009E73",
+        "period 4": "#D55E00",
+        "period 6": "#CC79A7",
+        "period 8": "#56B4E9",
+        "other periods": "#8A6D3B",
+        "chaos": "#3A3A3A",
+        "unsettled": "#A9A9A9",
+        "escaped": "#E5E5E5",
+    }
+)
+# What the article calls its motions, in these colours.
+SYNONYMS = {"chaotic": "chaos", "complex": "chaos", "aperiodic": "chaos"}
+
+BACKLASH = "#F1EDE4"  # the strip where the teeth are out of contact
+BOUNDARY = "#8C8577"
+INK = "#1F3A5F"  # curves that have no period to tell
+
+LABELS = {
+    "mean_force": "mean force $F_m'$",
+    "error_amplitude": "transmission error $F_{ah}$",
+    "error_phase": r"phase of the transmission error $\varphi_h$ (rad)",
+    "damping_ratio": r"damping ratio $\zeta$",
+    "mesh_frequency": r"mesh frequency $\Omega_h$",
+    "contact_ratio": r"contact ratio $\varepsilon$",
+    "a": "$a$",
+    "b": "$b$",
+    "x": "displacement $X$",
+    "v": "velocity $X'$",
+    "section": "$X$ on the section",
+    "tau": r"time $\tau / T_h$ (mesh periods)",
+    "frequency": r"frequency / $\Omega_h$",
+    "exponent": r"largest exponent $\lambda_1$",
+}
+
+
+def motion_colour(motion: str) -> str:
+    """The colour of a motion, by its name such as ``"period 2"`` or ``"chaos"``.
+
+    Examples
+    --------
+    >>> motion_colour("period 1"), motion_colour("period 17") == motion_colour("other periods")
+    ('#0072B2', True)
+    """
+    motion = SYNONYMS.get(motion, motion)
+    fallback = "other periods" if motion.startswith("period") else "unsettled"
+    return MOTION_COLOURS.get(motion, MOTION_COLOURS[fallback])
+
+
+def legend_name(motion: str) -> str:
+    """The entry of the legend that a motion comes under: its own, or that of its colour."""
+    motion = SYNONYMS.get(motion, motion)
+    if motion in MOTION_COLOURS or not motion.startswith("period"):
+        return motion
+    return "other periods"
+
+
+def add_motion_legend(ax: Axes, motions: Iterable[str]) -> None:
+    """A row of coloured dots above the axes, in the order of `MOTION_COLOURS`."""
+    present = {legend_name(motion) for motion in motions}
+    names = [name for name in MOTION_COLOURS if name in present] + sorted(present - set(MOTION_COLOURS))
+    dots = [
+        Line2D([], [], linestyle="", marker="o", markersize=5, color=motion_colour(name), label=name) for name in names
+    ]
+    ax.legend(
+        handles=dots, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(dots), handletextpad=0.1,
+        columnspacing=0.9, borderaxespad=0.2,
+    )  # fmt: skip
+
+
+def new_axes(ax: Axes | None, height: float | None = None) -> Axes:
+    """`ax`, or the only axes of a new figure in the book's style."""
+    if ax is not None:
+        return ax
+    with plt.style.context(STYLE):
+        width, usual = STYLE["figure.figsize"]
+        return plt.figure(figsize=(width, height or usual)).add_subplot()

@@ -1,0 +1,81 @@
+"""The stiffness wave."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from gearpair.plotting.style import BOUNDARY, INK, LABELS, new_axes
+from gearpair.stiffness import StiffnessWave
+
+
+def stiffness_wave(
+    wave: StiffnessWave,
+    ax: Axes | None = None,
+    *,
+    n_periods: int = 2,
+    colour: str = INK,
+    label: str | None = None,
+    mean: bool = True,
+) -> Axes:
+    """The staircase over some mesh periods, and its mean as a dashed line.
+
+    Parameters
+    ----------
+    wave : StiffnessWave
+    ax : Axes, optional
+    n_periods : int
+    colour, label : str
+        Of the staircase.
+    mean : bool
+        Draw the mean.
+
+    Returns
+    -------
+    Axes
+    """
+    ax = new_axes(ax, 2.6)
+    edges = np.concatenate([np.add(wave.edges, k) for k in range(n_periods)] + [[float(n_periods)]])
+    ax.stairs(np.tile(wave.levels, n_periods), edges, baseline=None, linewidth=1.8, color=colour, label=label)
+    if mean:
+        ax.axhline(wave.mean, color=colour, linestyle="--", linewidth=1.0)
+        ax.annotate(
+            f"mean {wave.mean:.4g}", (n_periods, wave.mean), xytext=(-3, 3), textcoords="offset points", ha="right",
+            fontsize=8, color=colour,
+        )  # fmt: skip
+    ax.axhline(1.0, color=BOUNDARY, linewidth=0.6, zorder=-1)
+    top = max(1.0, *wave.levels)
+    ax.set(xlabel=LABELS["tau"], ylabel=r"stiffness $\bar k$", xlim=(0, n_periods))
+    ax.set_ylim(0, max(1.12 * top, ax.get_ylim()[1]))
+    return ax
+
+
+def harmonics(
+    wave: StiffnessWave, n: int, ax: Axes | None = None, *, colour: str = INK, label: str | None = None,
+    offset: float = 0.0,
+) -> Axes:  # fmt: skip
+    """Amplitudes ``2 |c_m|`` of the first `n` harmonics of the mesh frequency, as stems.
+
+    Parameters
+    ----------
+    wave : StiffnessWave
+    n : int
+        The highest harmonic shown.
+    ax : Axes, optional
+    colour, label : str
+    offset : float
+        Shift along the axis, to set several waves side by side.
+
+    Returns
+    -------
+    Axes
+    """
+    ax = new_axes(ax, 2.6)
+    order = np.arange(1, n + 1)
+    amplitude = 2.0 * np.abs(wave.harmonics(n)[1:])
+    ax.vlines(order + offset, 0.0, amplitude, color=colour, linewidth=1.4)
+    ax.plot(order + offset, amplitude, linestyle="", marker="o", markersize=4, color=colour, label=label)
+    ax.set(xlabel="harmonic $m$ of the mesh frequency", ylabel=r"amplitude $2|c_m|$")
+    ax.set_xticks(order)
+    ax.set_ylim(bottom=0.0)
+    return ax

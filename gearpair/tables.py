@@ -1,0 +1,82 @@
+"""Tables for people: aligned as text, ruled as HTML, the same numbers in both."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows under headings; its `repr` is aligned text, and a notebook shows it as HTML.
+
+    Parameters
+    ----------
+    columns : sequence of str
+        The headings.
+    rows : sequence of sequences
+        As many cells each as there are columns; numbers stand to the right. A cell is shown as `str` gives it, so
+        format floats first.
+
+    Raises
+    ------
+    ValueError
+        For a row with more or fewer cells than there are columns.
+
+    Examples
+    --------
+    >>> Table(["motion", "from", "to"], [["period 2", "0.700", "0.766"], ["chaos", "0.81", "0.814"]])
+    motion     from     to
+    ----------------------
+    period 2  0.700  0.766
+    chaos      0.81  0.814
+    """
+
+    columns: Sequence[str]
+    rows: Sequence[Sequence[Any]]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "columns", tuple(str(column) for column in self.columns))
+        object.__setattr__(self, "rows", tuple(tuple(str(cell) for cell in row) for row in self.rows))
+        for i, row in enumerate(self.rows):
+            if len(row) != len(self.columns):
+                raise ValueError(f"row {i} of the table must have {len(self.columns)} cells, got {len(row)}")
+
+    @property
+    def right(self) -> tuple[bool, ...]:
+        """Whether each column holds numbers only (empty cells and dashes aside) and so stands to the right."""
+        return tuple(
+            any(map(_is_number, cells)) and all(_is_number(cell) or cell in ("", "-", "–") for cell in cells)
+            for cells in (list(column) for column in zip(*self.rows, strict=True))
+        ) or (False,) * len(self.columns)
+
+    def __repr__(self) -> str:
+        lines = [self.columns, *self.rows]
+        widths = [max(map(len, cells)) for cells in zip(*lines, strict=True)]
+        texts = [
+            "  ".join(
+                cell.rjust(width) if right else cell.ljust(width)
+                for cell, width, right in zip(line, widths, self.right, strict=True)
+            ).rstrip()
+            for line in lines
+        ]
+        return "\n".join([texts[0], "-" * max(map(len, texts)), *texts[1:]])
+
+    def _repr_html_(self) -> str:
+        def line(tag: str, cells: Sequence[str]) -> str:
+            aligned = zip(cells, self.right, strict=True)
+            marks = [f'<{tag} style="text-align: {"right" if r else "left"}">{escape(c)}</{tag}>' for c, r in aligned]
+            return f"<tr>{''.join(marks)}</tr>"
+
+        head, body = line("th", self.columns), "\n".join(line("td", row) for row in self.rows)
+        return f'<table class="table">\n<thead>\n{head}\n</thead>\n<tbody>\n{body}\n</tbody>\n</table>'
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell.removesuffix("%").strip().replace("\N{MINUS SIGN}", "-"))
+    except ValueError:
+        return False
+    return True

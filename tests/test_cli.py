@@ -1,0 +1,88 @@
+"""The command line: what it prints, and one sentence for whatever is wrong."""
+
+import nbformat
+import pytest
+
+from gearpair.study.cli import main
+from tests.conftest import MEAN, write_notebook
+
+
+def run(root, *words):
+    return main(["--root", str(root), *words])
+
+
+def test_chapters_are_listed_with_their_schema(small_book, capsys):
+    assert run(small_book, "chapters") == 0
+    assert capsys.readouterr().out == (
+        "small: A small chapter\n  a: float = 0.116  stiffness added in double contact\n"
+    )
+
+
+@pytest.mark.parametrize("words", [("-p", "a", "1e-1"), ("-p", "a=0.1"), ("--parameter", "a", "0.1")])
+def test_run_puts_the_value_in_place_of_the_default(small_book, tmp_path, capsys, words):
+    output = tmp_path / "out.ipynb"
+    assert run(small_book, "run", "small", *words, "-o", str(output)) == 0
+    assert capsys.readouterr().out == f"{output}\n"
+    printed = nbformat.read(output, as_version=4).cells[-1].outputs[0].text
+    assert printed == "0.9355\n"  # 1 + 0.1 * 0.68 - 0.414 * 0.32 = 0.93552
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["run", "large"], "there is no chapter 'large'; there are small"),
+        (["run", "small", "-p", "c", "1"], "small has no parameter 'c'; it has a"),
+        (["run", "small", "-p", "a", "much"], "a of small must be a number, got 'much'"),
+        (["run", "small", "-p", "a"], "-p needs a name and a value, got only 'a'"),
+        (["run", "small", "-o", "out.html"], "must be a notebook (a name that ends in .ipynb), got 'out.html'"),
+        (["run", "small", "-o", "nowhere/out.ipynb"], "there is no directory"),
+        (["run", "small", "-o", "{root}/notebooks/small.ipynb"], "is the chapter's own source"),
+        (["run", "no/such.ipynb"], "there is no chapter 'no/such.ipynb'"),
+    ],
+)
+def test_bad_input_gets_one_sentence(small_book, tmp_path, monkeypatch, capsys, words, sentence):
+    monkeypatch.chdir(tmp_path)
+    before = sorted(tmp_path.rglob("*"))
+    assert run(small_book, *[word.format(root=small_book) for word in words]) == 1
+    error = capsys.readouterr().err
+    assert sentence in error
+    assert error.startswith("gearpair: ")
+    assert error.count("\n") == 1
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_a_value_out_of_range_stops_the_run_with_the_librarys_sentence(small_book, tmp_path, capsys):
+    output = tmp_path / "out.ipynb"
+    assert run(small_book, "run", "small", "-p", "a", "-1.5", "-o", str(output)) == 1
+    error = capsys.readouterr().err.splitlines()[-1]
+    assert error == (
+        "gearpair: chapter small failed in code cell 2 (cell 3 of the notebook): "
+        "ValueError: a must be a finite number above -1, got -1.5"
+    )
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["checkout"]
+
+
+def test_a_directory_without_a_book_is_named(tmp_path, capsys):
+    assert run(tmp_path, "chapters") == 1
+    assert f"no book here: {tmp_path} has no _toc.yml" in capsys.readouterr().err
+
+
+def test_wrong_usage_exits_with_2():
+    with pytest.raises(SystemExit) as exit_info:
+        main(["paint"])
+    assert exit_info.value.code == 2
+
+
+def test_accept_stores_outputs_and_finds_nothing_to_do_the_second_time(small_book, capsys):
+    figure = "import matplotlib.pyplot as plt, sys\nprint('noise', file=sys.stderr)\nplt.plot([0, 1])\nplt.show()"
+    path = write_notebook(small_book / "notebooks" / "small.ipynb", MEAN, figure)
+    assert run(small_book, "accept") == 0
+    assert "new outputs stored: small" in capsys.readouterr().out
+    text = path.read_text()
+    assert run(small_book, "accept") == 0
+    assert capsys.readouterr().out == "nothing changed\n"
+    assert path.read_text() == text
+    assert "0.9464" in text
+    for unstable in ("image/png", '"name": "stderr"', "papermill", str(small_book), "ipykernel_"):
+        assert unstable not in text
+    assert [cell.execution_count for cell in nbformat.reads(text, as_version=4).cells[1:]] == [1, 2, 3]

@@ -1,0 +1,138 @@
+"""Every chapter as a text and as a program (its stored outputs are compared by nbval)."""
+
+import ast
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import nbformat
+import pytest
+
+from gearpair.study.book import Book
+from gearpair.study.execution import execute
+from tests.conftest import MEAN, write_notebook
+
+ROOT = Path(__file__).parents[1]
+BOOK = Book(ROOT)
+NOTEBOOKS = sorted(path for path in (ROOT / "notebooks").rglob("*.ipynb") if ".ipynb_checkpoints" not in path.parts)
+CHAPTERS = BOOK.chapter_names()
+LONGEST_CELL = 14
+
+# What each chapter is run with, beside its defaults, to show that its parameters are live.
+CHANGED = {
+    "stiffness": {"contact_ratio": "1.78", "a": "0.125", "b": "0.395", "reading": "swapped", "n_harmonics": "5"},
+}
+# A value that the library refuses, and its sentence.
+REFUSED = {
+    "stiffness": ("contact_ratio", "2.5", "contact_ratio must be a finite number above 1 and below 2, got 2.5"),
+}
+
+
+def code_cells(path):
+    return [cell for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "code"]
+
+
+def stored_text(path):
+    texts = []
+    for cell in code_cells(path):
+        for output in cell.outputs:
+            texts.append(output.get("text", ""))
+            texts += [data for mime, data in output.get("data", {}).items() if not mime.startswith("image/")]
+    return "\n".join(texts)
+
+
+def test_the_table_of_contents_lists_every_chapter():
+    assert sorted(CHAPTERS) == sorted(path.stem for path in (ROOT / "notebooks").glob("*.ipynb"))
+    assert set(CHANGED) == set(REFUSED) == set(CHAPTERS)
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
+def test_a_chapter_declares_its_parameters(name):
+    chapter = BOOK.chapter(name)  # raises unless there is one parameters cell of annotated literals with comments
+    assert chapter.parameters
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_cells_are_short_calls_into_the_library(path):
+    for cell in code_cells(path):
+        definitions = [node for node in ast.walk(ast.parse(cell.source)) if hasattr(node, "decorator_list")]
+        assert not definitions, f"defined in a chapter: {cell.source}"
+        if "parameters" not in cell.metadata.get("tags", []):
+            lines = [line for line in cell.source.splitlines() if line.strip()]
+            assert len(lines) <= LONGEST_CELL, f"{len(lines)} lines in one cell: {cell.source}"
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_figures_have_caption_name_and_alt_text(path):
+    for cell in code_cells(path):
+        if any("<Figure" in str(output.get("data", {}).get("text/plain", "")) for output in cell.outputs):
+            shown = cell.metadata.get("mystnb", {})
+            assert shown.get("figure", {}).get("caption"), f"no caption: {cell.source}"
+            assert shown.get("figure", {}).get("name", "").startswith("fig-"), f"no name fig-...: {cell.source}"
+            assert shown.get("image", {}).get("alt"), f"no alt text: {cell.source}"
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_stored_outputs_are_the_same_on_every_machine(path):
+    outputs = [output for cell in code_cells(path) for output in cell.outputs]
+    assert not [output for output in outputs if output.output_type == "error"]
+    assert not [output for output in outputs if output.get("name") == "stderr"], "a warning or a progress bar"
+    text = stored_text(path)
+    assert not re.search(r" at 0x[0-9a-f]+", text), "the address of an object"
+    assert not re.search(r"\d+%\|", text), "a progress bar"
+    assert not re.search(r"(/home/|/tmp/|/root/|/usr/|[A-Z]:\\)", text), "a path of one machine"
+    assert not re.search(r"\d\.\d{7,}", text), "more digits than are the same everywhere: print 3 to 5"
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_numbers_glued_into_the_prose_are_formatted_texts(path):
+    for cell in code_cells(path):
+        for output in cell.outputs:
+            record = output.get("data", {}).get("application/papermill.record/text/plain", "''")
+            assert record.startswith("'"), f"glue a formatted text, not {record}"
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
+def test_a_chapter_runs_with_other_parameters(name, tmp_path):
+    chapter = BOOK.chapter(name)
+    values = chapter.parse(list(CHANGED[name].items()))
+    execute(chapter, tmp_path / "out.ipynb", values, progress=False)
+    executed = nbformat.read(tmp_path / "out.ipynb", as_version=4)
+    assert any("injected-parameters" in cell.metadata.get("tags", []) for cell in executed.cells)
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
+def test_papermill_itself_stops_at_a_value_out_of_range(name, tmp_path):
+    parameter, value, sentence = REFUSED[name]
+    command = [sys.executable, "-m", "papermill", str(BOOK.chapter(name).path), str(tmp_path / "out.ipynb")]
+    result = subprocess.run([*command, "-p", parameter, value], cwd=ROOT, capture_output=True, text=True)
+    assert result.returncode != 0
+    assert sentence in result.stderr
+
+
+def test_nbval_sees_a_broken_library(small_book, tmp_path):
+    """The stored outputs are compared for real: one changed constant in the library, and nbval is red."""
+    from gearpair.study.book import accept_outputs
+
+    notebook = write_notebook(small_book / "notebooks" / "small.ipynb", MEAN)
+    accept_outputs(Book(small_book), progress=False)
+    assert nbval(notebook, ROOT).returncode == 0
+
+    for path in (ROOT / "gearpair").rglob("*.py"):
+        copy = tmp_path / "broken" / path.relative_to(ROOT)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        source = path.read_text(encoding="utf-8")
+        copy.write_text(source.replace("(1.0 + a, 1.0 - b)", "(1.0 + a, 1.001 - b)"), encoding="utf-8")
+    result = nbval(notebook, tmp_path / "broken")
+    assert result.returncode == 1
+    assert "0.9464" in result.stdout and "0.9467" in result.stdout
+
+
+def nbval(notebook, library):
+    """Run nbval on `notebook` as `make test` does, with the package found in the directory `library`."""
+    command = [sys.executable, "-m", "pytest", "--nbval", "--nbval-current-env", "-p", "no:cacheprovider"]
+    command += ["-c", "/dev/null", "--rootdir", str(notebook.parent), str(notebook)]
+    environment = {**os.environ, "PYTHONPATH": str(library)}
+    return subprocess.run(command, env=environment, cwd=notebook.parent, capture_output=True, text=True)
