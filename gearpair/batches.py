@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from tqdm import tqdm
 
 from gearpair._checks import check_count
-from gearpair._flow.settle import NOT_RUN, Lanes, Settled, settle_batch, settle_chain
+from gearpair._cores import on_all_cores
+from gearpair._flow.settle import NOT_RUN, Lanes, Settled, settle_rows
 from gearpair.oscillator import Oscillator
 
-BLOCK = 64  # lanes between two moves of the progress bar, and between two chances to stop
+BLOCK = 8  # motions between two moves of the progress bar, and between two chances to stop
 
 
 class Status(StrEnum):
@@ -119,13 +120,17 @@ def settle_lanes(
     n = len(oscillators)
     out = _room(n, settings)
     lanes = lanes_of(oscillators, starts, settings)
-    run = settle_chain if carry else settle_batch
+    settle = (carry, settings.max_period, settings.n_exponent, out)
+    blocks = [(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK)] if carry else [(0, n)]
     with tqdm(total=n, unit="motion", disable=not progress) as bar:
         try:
-            for first in range(0, n, BLOCK):
-                last = min(first + BLOCK, n)
-                run(lanes, first, last, settings.max_period, settings.n_exponent, out)
-                bar.update(last - first)
+            for begin, end in blocks:
+                on_all_cores(
+                    lambda first, last, begin=begin: settle_rows(lanes, begin + first, begin + last, *settle),
+                    end - begin,
+                    BLOCK,
+                    bar.update,
+                )
         except KeyboardInterrupt:
             done = int(np.sum(out.status != NOT_RUN))
             warnings.warn(f"stopped after {done} of {n} motions; the rest has status 'not_run'", stacklevel=3)
