@@ -120,17 +120,16 @@ def settle_lanes(
     n = len(oscillators)
     out = _room(n, settings)
     lanes = lanes_of(oscillators, starts, settings)
-    settle = (carry, settings.max_period, settings.n_exponent, out)
-    blocks = [(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK)] if carry else [(0, n)]
+    arguments = (lanes, carry, settings.max_period, settings.n_exponent, out)
     with tqdm(total=n, unit="motion", disable=not progress) as bar:
         try:
-            for begin, end in blocks:
-                on_all_cores(
-                    lambda first, last, begin=begin: settle_rows(lanes, begin + first, begin + last, *settle),
-                    end - begin,
-                    BLOCK,
-                    bar.update,
-                )
+            if carry:
+                for first in range(0, n, BLOCK):
+                    last = min(first + BLOCK, n)
+                    settle_rows(first, last, *arguments)
+                    bar.update(last - first)
+            else:
+                on_all_cores(settle_rows, arguments, n, BLOCK, bar.update)
         except KeyboardInterrupt:
             done = int(np.sum(out.status != NOT_RUN))
             warnings.warn(f"stopped after {done} of {n} motions; the rest has status 'not_run'", stacklevel=3)

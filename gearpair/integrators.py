@@ -193,6 +193,16 @@ def _integrated(
     n = len(oscillators)
     lanes: Lanes = lanes_of(oscillators, np.broadcast_to([float(xs), float(vs)], (n, 2)), SettleSettings(n_transient=0))
     points, status, calls = np.empty((n, n_kept, 2)), np.empty(n, np.int64), np.empty(n, np.int64)
-    run = (n_periods, float(rtol), float(atol), MAX_STEPS_PER_PERIOD * n_periods, points, status, calls)
-    on_all_cores(lambda first, last: integrate_rows(lanes, first, last, carry, *run), n, n if carry else 1)
+    arguments = (
+        lanes,
+        carry,
+        n_periods,
+        float(rtol),
+        float(atol),
+        MAX_STEPS_PER_PERIOD * n_periods,
+        points,
+        status,
+        calls,
+    )
+    on_all_cores(integrate_rows, arguments, n, n if carry else 1)
     return points, status, calls

@@ -140,11 +140,8 @@ def stroboscopic_map(
     n = check_count("n", n, at_least=0)
     starts = np.stack([xs.ravel(), vs.ravel()], axis=1)
     ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
-    on_all_cores(
-        lambda first, last: march_starts(osc._cells, starts, first, last, n, ends, status),
-        len(starts),
-        max(1, PERIODS_AT_ONCE // max(n, 1)),
-    )
+    block = max(1, PERIODS_AT_ONCE // max(n, 1))
+    on_all_cores(march_starts, (osc._cells, starts, n, ends, status), len(starts), block)
     for code, remedy in CAPPED.items():
         if np.any(status == code):
             i = int(np.argmax(status == code))

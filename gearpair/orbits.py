@@ -220,13 +220,7 @@ def find_orbits(
     orbits: list[PeriodicOrbit] = []
     for period in range(1, max_period + 1):
         ends, found = np.empty_like(starts), np.zeros(n_starts, np.bool_)
-        on_all_cores(
-            lambda first, last, period=period, ends=ends, found=found: newton_starts(
-                osc._cells, starts, first, last, period, ends, found
-            ),
-            n_starts,
-            STARTS_AT_ONCE,
-        )
+        on_all_cores(newton_starts, (osc._cells, starts, period, ends, found), n_starts, STARTS_AT_ONCE)
         for x_end, v_end in ends[found].tolist():
             if not any(_passes(orbit, x_end, v_end) for orbit in orbits):
                 shortest = _minimal_period(osc, x_end, v_end, period)

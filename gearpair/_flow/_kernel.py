@@ -9,8 +9,8 @@ from numba.core.caching import IndexDataCacheFile
 # Multiply-adds may be fused; nothing is reordered, and a division by zero gives inf instead of raising.
 OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}, "nogil": True}
 
-# numba's disk cache looks only at the file a kernel stands in, but a kernel contains those that it calls. So the names of
-# the cached files carry a digest of all sources: whatever is edited, nothing compiled before is found again.
+# numba's disk cache looks only at the file a kernel stands in, but a kernel contains those that it calls. So the
+# names of the cached files carry a digest of all sources: after an edit nothing compiled before is found again.
 SOURCES = sha256(b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))).hexdigest()[:16]
 
 

@@ -65,7 +65,7 @@ def segment_turns(cells, j, cycle, start, series, end, turns, n):
 
 
 @kernel
-def newton_starts(cells, starts, first, last, period, ends, found):
+def newton_starts(first, last, cells, starts, period, ends, found):
     """Newton's method from rows `first` to `last` of `starts` (n, 2), filling the same of `ends` and `found`."""
     m, series = np.empty((2, 2)), np.empty(TERMS)
     for i in range(first, last):

@@ -115,7 +115,7 @@ def march(cells, x, v, n_periods, series):
 
 
 @kernel
-def march_starts(cells, starts, first, last, n_periods, ends, status):
+def march_starts(first, last, cells, starts, n_periods, ends, status):
     """`march` from rows `first` to `last` of `starts` (n, 2), filling the same of `ends` (n, 2) and `status` (n,)."""
     series = np.empty(TERMS)
     for i in range(first, last):

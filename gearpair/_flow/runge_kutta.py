@@ -169,7 +169,7 @@ def integrate(p, x, v, n_periods, rtol, atol, max_steps, points):
 
 
 @kernel
-def integrate_rows(lanes, first, last, carry, n_periods, rtol, atol, max_steps, points, status, calls):
+def integrate_rows(first, last, lanes, carry, n_periods, rtol, atol, max_steps, points, status, calls):
     """`integrate` for lanes `first` to `last`, filling the same rows of `points` (n, m, 2), `status` and `calls` (n,).
 
     With `carry` each lane starts where the one before it ended, if that is complete.

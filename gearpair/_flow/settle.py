@@ -167,7 +167,7 @@ def smallest_point(cells, x, v, period, series):
 
 
 @kernel
-def settle_rows(lanes, first, last, carry, max_period, n_exponent, out):
+def settle_rows(first, last, lanes, carry, max_period, n_exponent, out):
     """`settle` for lanes `first` to `last`.
 
     With `carry` each lane starts where the one before it ended, if that motion stayed bounded.
