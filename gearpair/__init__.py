@@ -5,7 +5,7 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 
 from gearpair import published
 from gearpair.batches import Status
-from gearpair.comparison import compare_boundaries, compare_ranges
+from gearpair.comparison import compare_attractors, compare_boundaries, compare_ranges
 from gearpair.drive import GearDrive
 from gearpair.exponents import lyapunov_exponents
 from gearpair.impacts import ImpactState, impact_state
@@ -22,6 +22,7 @@ from gearpair.ranges import (
     motion_name,
     motion_ranges,
     motion_shares,
+    range_of,
     representatives,
 )
 from gearpair.spectra import Spectrum, spectrum
@@ -46,6 +47,7 @@ __all__ = [
     "Trajectory",
     "attractor_names",
     "basins",
+    "compare_attractors",
     "compare_boundaries",
     "compare_ranges",
     "find_orbits",
@@ -59,6 +61,7 @@ __all__ = [
     "parameter_map",
     "periodic_orbit",
     "published",
+    "range_of",
     "representatives",
     "spectrum",
     "steady_state",

@@ -15,12 +15,13 @@ from gearpair.plotting.diagrams import (
 )
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
-from gearpair.plotting.style import MOTION_COLOURS, STYLE, motion_colour
+from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.waves import harmonics, stiffness_wave
 
 __all__ = [
     "MOTION_COLOURS",
     "STYLE",
+    "add_motion_legend",
     "attractor_points",
     "basins",
     "bifurcation_diagram",
