@@ -22,6 +22,7 @@ from gearpair.ranges import (
     motion_name,
     motion_ranges,
     motion_shares,
+    motion_table,
     range_of,
     representatives,
 )
@@ -58,6 +59,7 @@ __all__ = [
     "motion_name",
     "motion_ranges",
     "motion_shares",
+    "motion_table",
     "parameter_map",
     "periodic_orbit",
     "published",

@@ -17,6 +17,7 @@ from gearpair.initial_conditions import basins
 from gearpair.oscillator import Oscillator
 from gearpair.steady import SteadyState, steady_state
 from gearpair.sweeps import attributes, oscillators_along, sweep
+from gearpair.tables import Table
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -287,6 +288,27 @@ def attractor_names(result: xr.Dataset, least_share: float = 0.0) -> list[str]:
             motion = motion_name(str(status), int(period))
             names.append(f"{motion}, {IMPACT_NAMES[str(state)]}" if status == Status.PERIODIC else motion)
     return names
+
+
+def motion_table(states: Mapping[str, SteadyState], parameter: str, digits: int = 3) -> Table:
+    """Settled motions by name: the value of a parameter, extremes, impact state, modulus of the larger multiplier.
+
+    Of a motion that is not periodic only the value is told: the rest depends on the span that was looked at.
+
+    Examples
+    --------
+    >>> motion_table({"the baseline": steady_state(Oscillator())}, "damping_ratio")
+    motion        damping_ratio  X_min  X_max  impact state  largest multiplier
+    ---------------------------------------------------------------------------
+    the baseline          0.020  0.118  1.492  single-sided               0.698
+    """
+    rows = []
+    for name, state in states.items():
+        cells = [f"{state.x_min:.{digits}f}", f"{state.x_max:.{digits}f}", IMPACT_NAMES[state.impact_state or ""]]
+        cells.append(f"{abs(state.multipliers[0]):.{digits}f}")
+        value = f"{state.oscillator.parameter(parameter):.{digits}f}"
+        rows.append([name, value, *(cells if state.period else ["–"] * len(cells))])
+    return Table(["motion", parameter, "X_min", "X_max", "impact state", "largest multiplier"], rows)
 
 
 def motion_shares(
