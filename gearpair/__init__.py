@@ -6,7 +6,7 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 from gearpair import published
 from gearpair.batches import Status
 from gearpair.bifurcation_curves import BifurcationCurve, continue_bifurcation
-from gearpair.branch_search import find_branches
+from gearpair.branch_search import coexistence, doubling_cascade, find_branches
 from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit
 from gearpair.comparison import compare_boundaries, compare_ranges
 from gearpair.drive import GearDrive
@@ -38,6 +38,8 @@ from gearpair.sweeps import sweep
 from gearpair.tables import Table
 
 __all__ = [
+    "coexistence",
+    "doubling_cascade",
     "apparent_period",
     "runge_kutta_section",
     "runge_kutta_sweep",
