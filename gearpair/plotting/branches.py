@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,7 +14,7 @@ from gearpair.branches import Branch
 from gearpair.plotting.style import INK, LABELS, motion_colour, new_axes
 
 MARKERS = {"fold": "^", "flip": "o", "grazing": "D"}
-DASHES = {"fold": "-", "flip": "--", "grazing": ":"}
+DASHES: dict[str, Any] = {"fold": "-", "flip": "--", "grazing": ":"}
 
 
 def branches(
