@@ -5,12 +5,18 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 
 from gearpair import published
 from gearpair.batches import Status
+from gearpair.bifurcation_curves import BifurcationCurve, continue_bifurcation
+from gearpair.branch_search import coexistence, doubling_cascade, find_branches
+from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit
 from gearpair.comparison import compare_attractors, compare_boundaries, compare_ranges
 from gearpair.drive import GearDrive
 from gearpair.exponents import lyapunov_exponents
 from gearpair.impacts import ImpactState, impact_state
 from gearpair.initial_conditions import basins
+from gearpair.integrators import apparent_period, runge_kutta_section, runge_kutta_sweep
+from gearpair.iso6336 import IsoStiffness, iso_stiffness
 from gearpair.maps import parameter_map
+from gearpair.meshing import MeshStiffness, mesh_stiffness
 from gearpair.motion import Impacts, Trajectory, stroboscopic_map, trajectory
 from gearpair.orbits import NewtonStatus, PeriodicOrbit, find_orbits, periodic_orbit
 from gearpair.oscillator import Oscillator
@@ -27,35 +33,51 @@ from gearpair.ranges import (
     representatives,
 )
 from gearpair.spectra import Spectrum, spectrum
+from gearpair.spurpair import SpurPair
 from gearpair.steady import SteadyState, steady_state
 from gearpair.stiffness import StiffnessWave
 from gearpair.sweeps import sweep
 from gearpair.tables import Table
 
 __all__ = [
+    "Bifurcation",
+    "BifurcationCurve",
+    "Branch",
     "GearDrive",
     "ImpactState",
     "Impacts",
+    "IsoStiffness",
+    "MeshStiffness",
     "MotionRange",
     "NewtonStatus",
     "Oscillator",
     "PeriodicOrbit",
     "Spectrum",
+    "SpurPair",
     "Status",
     "SteadyState",
     "StiffnessWave",
     "Table",
     "Trajectory",
+    "apparent_period",
     "attractor_names",
     "basins",
+    "coexistence",
     "compare_attractors",
     "compare_boundaries",
     "compare_ranges",
+    "continue_bifurcation",
+    "continue_orbit",
+    "doubled_orbit",
+    "doubling_cascade",
+    "find_branches",
     "find_orbits",
     "follow",
     "found_ranges",
     "impact_state",
+    "iso_stiffness",
     "lyapunov_exponents",
+    "mesh_stiffness",
     "motion_name",
     "motion_ranges",
     "motion_shares",
@@ -65,6 +87,8 @@ __all__ = [
     "published",
     "range_of",
     "representatives",
+    "runge_kutta_section",
+    "runge_kutta_sweep",
     "spectrum",
     "steady_state",
     "stroboscopic_map",

@@ -73,21 +73,22 @@ def follow(
     smallest: float,
     largest: float,
 ) -> Iterator[Step[Data]]:
-    """Walk along the curve from `start` towards `direction`; ends where no step converges.
+    """Walk along the curve from its point `start` towards `direction`; ends where no step converges.
 
     The step grows after quick convergence and shrinks after none or after a sharp turn.
     """
-    found = correct(equations, start, direction / np.linalg.norm(direction))
+    found = equations(start)
     if found is None:
         return
-    u, tangent, steps = found
-    yield Step(u, tangent, steps, describe(u))
+    u, tangent = start, null_vector(found[1])
+    tangent = tangent if tangent @ direction > 0.0 else -tangent
+    yield Step(u, tangent, 0, describe(u))
     size = first
     while size >= smallest:
-        found = correct(equations, u + size * tangent, tangent)
-        if found is None or (found[1] @ tangent < WIDEST_TURN and size > 8.0 * smallest):
+        corrected = correct(equations, u + size * tangent, tangent)
+        if corrected is None or (corrected[1] @ tangent < WIDEST_TURN and size > 8.0 * smallest):
             size *= 0.5
             continue
-        u, tangent, steps = found
+        u, tangent, steps = corrected
         yield Step(u, tangent, steps, describe(u))
         size = min(largest, size * (1.5 if steps <= QUICK else 0.8))

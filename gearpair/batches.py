@@ -118,7 +118,7 @@ def settle_lanes(
     """
     n = len(oscillators)
     out = _room(n, settings)
-    lanes = _lanes(oscillators, starts, settings)
+    lanes = lanes_of(oscillators, starts, settings)
     run = settle_chain if carry else settle_batch
     with tqdm(total=n, unit="motion", disable=not progress) as bar:
         try:
@@ -132,7 +132,8 @@ def settle_lanes(
     return out
 
 
-def _lanes(oscillators: Sequence[Oscillator], starts: NDArray[np.float64], settings: SettleSettings) -> Lanes:
+def lanes_of(oscillators: Sequence[Oscillator], starts: NDArray[np.float64], settings: SettleSettings) -> Lanes:
+    """The lanes of a batch; `starts` (n, 2) are copied."""
     return Lanes(
         np.array(
             [(o.mean_force, o.error_amplitude, o.error_phase, o.damping_ratio, o.mesh_frequency) for o in oscillators]

@@ -95,7 +95,7 @@ class GearDrive:
     stiffness: StiffnessWave = field(default_factory=StiffnessWave.rectangular)
 
     def __post_init__(self) -> None:
-        checked = {"pinion_teeth": check_count("pinion_teeth", self.pinion_teeth)}
+        checked: dict[str, float] = {"pinion_teeth": check_count("pinion_teeth", self.pinion_teeth)}
         checked |= {name: check_number(name, getattr(self, name), above=0.0) for name in POSITIVE}
         checked |= {name: check_number(name, getattr(self, name), at_least=0.0) for name in NOT_NEGATIVE}
         checked |= {name: check_number(name, getattr(self, name)) for name in ANY}

@@ -10,7 +10,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_choice, check_count, check_number
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.march import ESCAPED, EVENT_UNDECIDED, MAX_EVENTS_PER_PERIOD, OK, TOO_MANY_EVENTS, march, march_starts
+from gearpair._flow.march import (
+    ESCAPED,
+    EVENT_UNDECIDED,
+    MAX_EVENTS_PER_PERIOD,
+    OK,
+    TOO_MANY_EVENTS,
+    march,
+    march_starts,
+)
 from gearpair._flow.observe import record
 from gearpair.oscillator import Oscillator
 
@@ -200,7 +208,7 @@ def trajectory(
     samples, impacts = run(
         osc, float(xs), float(vs), n_periods, n_transient, samples_per_period, method=method, rtol=rtol, atol=atol
     )
-    tau = np.arange(len(samples)) * (osc.period / samples_per_period)
+    tau = np.linspace(0.0, n_periods * osc.period, len(samples))
     return Trajectory(osc, tau, samples[:, 0], samples[:, 1], impacts, samples_per_period, method)
 
 
@@ -261,9 +269,7 @@ def _integrated(
     begin, end = n_transient * osc.period, (n_transient + n_periods) * osc.period
     crossings = [lambda tau, y: y[0] - 1.0, lambda tau, y: y[0] + 1.0]
     times = np.linspace(begin, end, n_periods * samples_per_period + 1)
-    solution = solve_ivp(
-        slope, (0.0, end), (x, v), method=method, t_eval=times, rtol=rtol, atol=atol, events=crossings
-    )
+    solution = solve_ivp(slope, (0.0, end), (x, v), method=method, t_eval=times, rtol=rtol, atol=atol, events=crossings)
     if not solution.success:
         raise RuntimeError(f"{method} failed: {solution.message}")
     rows = [

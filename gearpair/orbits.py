@@ -219,12 +219,12 @@ def find_orbits(
     for period in range(1, max_period + 1):
         ends, found = np.empty_like(starts), np.zeros(n_starts, np.bool_)
         newton_starts(osc._flow_parameters, starts, period, ends, found)
-        for point in ends[found]:
-            if not any(_passes(orbit, point) for orbit in orbits):
-                shortest = _minimal_period(osc, *point, period)
-                orbits.append(orbit_at(osc, *point, shortest, NewtonStatus.CONVERGED))
+        for x_end, v_end in ends[found].tolist():
+            if not any(_passes(orbit, x_end, v_end) for orbit in orbits):
+                shortest = _minimal_period(osc, x_end, v_end, period)
+                orbits.append(orbit_at(osc, x_end, v_end, shortest, NewtonStatus.CONVERGED))
     return sorted(orbits, key=lambda orbit: (orbit.period, orbit.points[0, 0]))
 
 
-def _passes(orbit: PeriodicOrbit, point: NDArray[np.float64]) -> bool:
-    return bool(np.any(np.max(np.abs(orbit.points - point), axis=1) < SAME_ORBIT))
+def _passes(orbit: PeriodicOrbit, x: float, v: float) -> bool:
+    return bool(np.any(np.max(np.abs(orbit.points - (x, v)), axis=1) < SAME_ORBIT))

@@ -125,7 +125,9 @@ class Oscillator:
         if name in self.parameters:
             return
         if name in WAVE_SCALARS:
-            raise ValueError(f"{name} can be changed only where the stiffness wave is rectangular, got {self.stiffness!r}")
+            raise ValueError(
+                f"{name} can be changed only where the stiffness wave is rectangular, got {self.stiffness!r}"
+            )
         raise ValueError(f"unknown parameter {name!r}; the parameters are {', '.join(self.parameters)}")
 
     def force(self, tau: ArrayLike) -> NDArray[np.float64]:

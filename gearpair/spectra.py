@@ -67,5 +67,5 @@ def spectrum(trajectory: Trajectory, *, window: str = "boxcar") -> Spectrum:
     weights = get_window(window, len(x))
     amplitude = np.abs(np.fft.rfft(x * weights)) / weights.sum()
     amplitude[1 : (len(x) + 1) // 2] *= 2.0
-    frequency = np.fft.rfftfreq(len(x), 1.0 / trajectory.samples_per_period)
+    frequency = np.linspace(0.0, len(amplitude) - 1.0, len(amplitude)) * trajectory.samples_per_period / len(x)
     return Spectrum(frequency, amplitude)

@@ -58,9 +58,8 @@ def test_the_relative_motion_of_two_rotors_is_the_oscillators():
     for cycle in range(n):
         for start, length, k in zip(osc.stiffness.edges, osc.stiffness.durations, osc.stiffness.levels, strict=True):
             t = (cycle + start) * period
-            piece = solve_ivp(
-                rotors(k), (t, t + length * period), state, method="DOP853", rtol=1e-12, atol=1e-15, max_step=period / 400
-            )
+            span = (t, t + length * period)
+            piece = solve_ivp(rotors(k), span, state, method="DOP853", rtol=1e-12, atol=1e-15, max_step=period / 400)
             state = piece.y[:, -1]
     end = n * period
     x = (r1 * state[0] - r2 * state[2] - e_a * np.sin(omega * end + psi)) / b

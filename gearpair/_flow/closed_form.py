@@ -24,10 +24,7 @@ REACH = 0.6  # REACH**TERMS / TERMS! = 1e-17: the first neglected term
 @kernel
 def fastest_rate(kappa: float, zeta: float, omega: float) -> float:
     """The largest rate of a linear piece: forcing frequency or modulus of a characteristic root."""
-    if zeta * zeta > kappa:
-        root = zeta + np.sqrt(zeta * zeta - kappa)
-    else:
-        root = np.sqrt(kappa)
+    root = zeta + np.sqrt(zeta * zeta - kappa) if zeta * zeta > kappa else np.sqrt(kappa)
     return max(omega, root)
 
 

@@ -1,13 +1,12 @@
 """What a continuation asks of one oscillator: the period map with its derivative, and a cycle's turning points."""
 
 import numpy as np
-
-from ._kernel import kernel, parallel_kernel
 from numba import prange
 
-from .cells import WIDTH, build_cells
+from ._kernel import kernel, parallel_kernel
+from .cells import START, WIDTH, build_cells
 from .closed_form import TERMS, evaluate
-from .event_search import INSIDE, ROUNDING, UNDECIDED, certified_step
+from .event_search import INSIDE, UNDECIDED, least_step, next_turn
 from .march import EVENT_UNDECIDED, OK, first_region, march, next_segment, region_after
 from .tangent import march_tangent, newton
 
@@ -54,29 +53,15 @@ def turns_at(p, x, v, period, turns):
 
 @kernel
 def segment_turns(cells, j, cycle, start, series, end, turns, n):
-    """Append the roots of the slope of a segment of cell `j`, found by certified steps on the slope."""
-    bend, scale = 0.0, abs(series[1])
-    for k in range(TERMS - 1, 1, -1):
-        bend = bend * end + (k * (k - 1) * (k - 2) * abs(series[k]) if k > 2 else 0.0)
-        scale += k * abs(series[k])
-    bend = max(bend, ROUNDING * ROUNDING)
-    tiny = ROUNDING * max(scale, 1e-300)
-    least = np.sqrt(2.0 * tiny / bend)
-    width = cells.clock[j, WIDTH]
-    t = 0.0
-    for _ in range(400):
-        p, dp, ddp = evaluate(series, t)
-        if abs(dp) <= tiny:
-            if n < turns.shape[0]:
-                turns[n, 0] = cycle + cells.clock[j, 1] + (start + t) * width / cells.period
-                turns[n, 1] = p
-                turns[n, 2] = ddp / (width * width)
-                n += 1
-            t += least
-        else:
-            t += max(certified_step(abs(dp), ddp if dp > 0.0 else -ddp, bend), ROUNDING)
-        if t >= end:
-            break
+    """Append the turning points of a segment of cell `j` that starts at `start` and lasts `end` (widths)."""
+    span = cells.clock[j, WIDTH] / cells.period
+    t = next_turn(series, 0.0, end)
+    while t <= end and n < turns.shape[0]:
+        turns[n, 0] = cycle + cells.clock[j, START] + (start + t) * span
+        turns[n, 1], _dp, ddp = evaluate(series, t)
+        turns[n, 2] = ddp / cells.clock[j, WIDTH] ** 2
+        n += 1
+        t = next_turn(series, t + least_step(series, end), end)
     return n
 
 

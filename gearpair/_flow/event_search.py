@@ -17,7 +17,7 @@ certificates, cheapest first:
 import numpy as np
 
 from ._kernel import kernel
-from .closed_form import evaluate
+from .closed_form import TERMS, evaluate
 
 MONOTONE = 384.0 * np.sqrt(3.0) / 216.0 / 3.0 * 1.01
 ROUNDING = 2.0**-52
@@ -145,3 +145,38 @@ def step_by_step(series, floor, ceiling, end, bend):
         if t >= end:
             return INSIDE, end, 0.0
     return UNDECIDED, t, 0.0
+
+
+@kernel
+def next_turn(series, t, end):
+    """The first root of the slope p' in [t, end], by certified steps on the slope; inf where there is none.
+
+    A root at `t` itself counts; to go on from a root, start a `least_step` later.
+    """
+    bend, tiny = slope_bounds(series, end)
+    for _ in range(MAX_STEPS):
+        _p, dp, ddp = evaluate(series, t)
+        if abs(dp) <= tiny:
+            return t
+        t += max(certified_step(abs(dp), ddp if dp > 0.0 else -ddp, bend), ROUNDING * end)
+        if t > end:
+            break
+    return np.inf
+
+
+@kernel
+def slope_bounds(series, end):
+    """A bound of the third derivative on [0, end], and the rounding of the slope there."""
+    bend, scale = 0.0, 0.0
+    for n in range(TERMS - 1, 2, -1):
+        bend = bend * end + n * (n - 1) * (n - 2) * abs(series[n])
+    for n in range(TERMS - 1, 0, -1):
+        scale = scale * end + n * abs(series[n])
+    return max(bend, ROUNDING), ROUNDING * max(scale, ROUNDING)
+
+
+@kernel
+def least_step(series, end):
+    """How far p' must be followed from a root for it to leave its rounding."""
+    bend, tiny = slope_bounds(series, end)
+    return np.sqrt(2.0 * tiny / bend)

@@ -1,11 +1,10 @@
 """The march: one oscillator's motion over whole mesh periods, cell by cell, event by event."""
 
 import numpy as np
-
 from numba import prange
 
 from ._kernel import kernel, parallel_kernel
-from .cells import S0, SINE, SV, SX, V0, VV, VX, WIDTH, X0, XV, XX, COSINE
+from .cells import COSINE, S0, SINE, SV, SX, V0, VV, VX, WIDTH, X0, XV, XX
 from .closed_form import TERMS, evaluate, expand
 from .event_search import INSIDE, UNDECIDED, first_exit, region_at
 

@@ -5,10 +5,10 @@ import numpy as np
 from ._kernel import kernel
 from .cells import START, WIDTH
 from .closed_form import TERMS, evaluate
-from .event_search import INSIDE, ROUNDING, UNDECIDED, certified_step
+from .event_search import INSIDE, UNDECIDED, least_step, next_turn
 from .march import (
-    EVENT_UNDECIDED,
     ESCAPED,
+    EVENT_UNDECIDED,
     MAX_EVENTS_PER_PERIOD,
     OK,
     TOO_MANY_EVENTS,
@@ -18,37 +18,17 @@ from .march import (
     region_after,
 )
 
-MAX_SLOPE_STEPS = 400
-
 
 @kernel
 def segment_extremes(series, end, low, high):
-    """Widen [low, high] to the range of the power series on [0, end]: its ends and every root of its slope.
-
-    The roots are found by certified steps on the slope, as the crossings of X are on X.
-    """
+    """Widen [low, high] to the range of the power series on [0, end]: its ends and every root of its slope."""
     p, _dp, _ddp = evaluate(series, end)
     low, high = min(low, min(series[0], p)), max(high, max(series[0], p))
-    bend = 0.0  # a bound of |p'''|
-    scale = abs(series[1])  # of the slope's terms, for its rounding
-    for n in range(TERMS - 1, 1, -1):
-        bend = bend * end + (n * (n - 1) * (n - 2) * abs(series[n]) if n > 2 else 0.0)
-        scale += n * abs(series[n])
-    if bend == 0.0:
-        bend = ROUNDING
-    tiny = ROUNDING * max(scale, 1e-300)
-    least = np.sqrt(2.0 * tiny / bend)
-    t = 0.0
-    for _ in range(MAX_SLOPE_STEPS):
-        p, dp, ddp = evaluate(series, t)
-        if abs(dp) <= tiny:
-            low, high = min(low, p), max(high, p)
-            t += least
-            continue
-        rate = ddp if dp > 0.0 else -ddp
-        t += max(certified_step(abs(dp), rate, bend), ROUNDING)
-        if t >= end:
-            break
+    t = next_turn(series, 0.0, end)
+    while t <= end:
+        p, _dp, _ddp = evaluate(series, t)
+        low, high = min(low, p), max(high, p)
+        t = next_turn(series, t + least_step(series, end), end)
     return low, high
 
 

@@ -11,8 +11,8 @@ from .cells import VV, VX, WIDTH, XV, XX
 from .closed_form import evaluate
 from .event_search import INSIDE, UNDECIDED
 from .march import (
-    EVENT_UNDECIDED,
     ESCAPED,
+    EVENT_UNDECIDED,
     MAX_EVENTS_PER_PERIOD,
     OK,
     TOO_MANY_EVENTS,

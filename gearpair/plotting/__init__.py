@@ -5,6 +5,7 @@ colour-blind readers. Nothing is set at import: ``plt.style.use(STYLE)``, or ``w
 the book's look.
 """
 
+from gearpair.plotting.branches import bifurcation_curves, branches
 from gearpair.plotting.diagrams import (
     bifurcation_diagram,
     exponents,
@@ -25,7 +26,9 @@ __all__ = [
     "add_motion_legend",
     "attractor_points",
     "basins",
+    "bifurcation_curves",
     "bifurcation_diagram",
+    "branches",
     "exponents",
     "extremes",
     "finite_exponents",

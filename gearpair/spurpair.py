@@ -1,0 +1,367 @@
+"""A pair of external spur gears: what is drawn, and whether it can be cut and can run."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from gearpair._checks import check_count, check_number
+
+_ROUNDING = 1e-12
+
+
+def _involute(angle: float) -> float:
+    return math.tan(angle) - angle
+
+
+def _inverse_involute(value: float) -> float:
+    """Angle whose involute is `value` > 0: Newton on a convex function, from above."""
+    angle = min((3.0 * value) ** (1.0 / 3.0), math.pi / 2 - 1e-3) if value < 1.0 else math.atan(value + math.pi / 2)
+    for _ in range(60):
+        step = (_involute(angle) - value) / math.tan(angle) ** 2
+        angle -= step
+        if abs(step) < 1e-16:
+            break
+    return angle
+
+
+@dataclass(frozen=True)
+class SpurGear:
+    """One gear of a `SpurPair`; every length in millimetres, every angle in radians.
+
+    Parameters
+    ----------
+    teeth : int
+        Number of teeth z.
+    module_mm, pressure_angle, shift : float
+        Module m, the rack's pressure angle alpha and the profile shift x (in modules).
+    pitch_radius_mm, base_radius_mm : float
+        ``r = m z / 2`` and ``r_b = r cos(alpha)``.
+    tip_circle_mm, root_circle_mm, bore_mm : float
+        *Radii* of the tip circle, of the root circle and of the bore.
+    form_circle_mm : float
+        Radius at which the involute begins: where the rack's straight flank ends.
+    rack_tip_radius_mm, rack_tip_depth_mm, rack_tip_offset_mm : float
+        The rack's tip arc: its radius, the distance of its centre below the pitch line of
+        generation and its distance from the centre line of the rack's tooth.
+
+    Notes
+    -----
+    Made by `SpurPair`, which checks it. The rack that cuts the gear is the basic rack of ISO 53:
+    straight flanks down to the tip arc, flat at the tip.
+    """
+
+    teeth: int
+    module_mm: float
+    pressure_angle: float
+    shift: float
+    pitch_radius_mm: float
+    base_radius_mm: float
+    tip_circle_mm: float
+    root_circle_mm: float
+    bore_mm: float
+    form_circle_mm: float
+    rack_tip_radius_mm: float
+    rack_tip_depth_mm: float
+    rack_tip_offset_mm: float
+
+    @property
+    def base_half_angle(self) -> float:
+        """Half the tooth's angle on the base circle: ``pi / 2z + 2 x tan(alpha) / z + inv(alpha)``."""
+        alpha = self.pressure_angle
+        return math.pi / (2 * self.teeth) + 2 * self.shift * math.tan(alpha) / self.teeth + _involute(alpha)
+
+    @property
+    def root_half_angle(self) -> float:
+        """Half the angle between the two points where the rack-cut fillets reach the root circle (theta_f)."""
+        return math.pi / self.teeth - self.rack_tip_offset_mm / self.pitch_radius_mm
+
+    @property
+    def tip_thickness_mm(self) -> float:
+        """Thickness of the tooth along the tip circle."""
+        tip_angle = math.acos(self.base_radius_mm / self.tip_circle_mm)
+        return 2 * self.tip_circle_mm * (self.base_half_angle - _involute(tip_angle))
+
+
+@dataclass(frozen=True)
+class SpurPair:
+    """Two external spur gears cut by one rack and meshing without backlash.
+
+    Parameters
+    ----------
+    pinion_teeth, gear_teeth : int
+        Numbers of teeth z1 (driving) and z2 (driven).
+    module_mm, face_width_mm : float
+        Module m and common face width b, in millimetres.
+    pressure_angle_deg : float
+        Pressure angle alpha of the rack, in degrees.
+    addendum, clearance : float
+        h_a and c in modules; the rack reaches ``h_a + c`` below its reference line.
+    pinion_shift, gear_shift : float
+        Profile shifts x1, x2 in modules, positive away from the gear's centre.
+    tip_radius : float, optional
+        Radius of the *rack's* tip arc in modules, which cuts the fillet. Not given:
+        ``c / (1 - sin(alpha))``, the arc that ends the straight flank at depth h_a, or a fully round
+        tip where that arc is too wide for the rack (25 degrees and c = 0.25, say).
+    bore_ratio : float
+        Radius of the bore over the pitch radius, the same on both gears.
+    youngs_modulus_gpa, poisson_ratio : float
+        E in GPa and nu, the same on both gears.
+    tip_shortening : float
+        Taken off both tips, in modules; 0 unless asked for. `full_clearance_shortening` is the
+        value that gives a shifted pair its clearance c again.
+
+    Raises
+    ------
+    ValueError
+        Sizes out of range; an undercut or pointed tooth; a bore at or beyond a root circle; a rack
+        without room for its tip arc; tips that reach the mating root circle or touch below the mating
+        involute; a contact ratio below 1. The sentence has the number found and the limit.
+
+    Notes
+    -----
+    Working pressure angle ``inv(alpha_w) = inv(alpha) + 2 (x1 + x2) tan(alpha) / (z1 + z2)``, contact
+    between the two tip circles on the line of action: ISO 21771:2007. The article gives neither module
+    nor width nor bore: those defaults are choices of this library, and stiffness per width does not
+    depend on the module.
+
+    Examples
+    --------
+    >>> pair = SpurPair(pinion_teeth=34, gear_teeth=44)
+    >>> round(pair.contact_ratio, 4)
+    1.7061
+    >>> SpurPair(pinion_teeth=12)  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+        ...
+    ValueError: pinion_teeth = 12 is undercut: pinion_shift is 0 and must be at least 0.298133, or pinion_teeth ... 18
+    """
+
+    pinion_teeth: int = 34
+    gear_teeth: int = 34
+    module_mm: float = 3.0
+    pressure_angle_deg: float = 20.0
+    face_width_mm: float = 20.0
+    addendum: float = 1.0
+    clearance: float = 0.25
+    pinion_shift: float = 0.0
+    gear_shift: float = 0.0
+    tip_radius: float | None = None
+    bore_ratio: float = 0.3
+    youngs_modulus_gpa: float = 206.8
+    poisson_ratio: float = 0.3
+    tip_shortening: float = 0.0
+
+    def __post_init__(self) -> None:
+        numbers: dict[str, float | None] = {
+            name: check_number(name, getattr(self, name), above=0.0)
+            for name in ("module_mm", "face_width_mm", "addendum", "clearance", "bore_ratio", "youngs_modulus_gpa")
+        }
+        for name in ("pinion_teeth", "gear_teeth"):
+            numbers[name] = check_count(name, getattr(self, name), at_least=3)
+        for name in ("pinion_shift", "gear_shift"):
+            numbers[name] = check_number(name, getattr(self, name))
+        numbers["pressure_angle_deg"] = check_number(
+            "pressure_angle_deg", self.pressure_angle_deg, above=0.0, below=90.0
+        )
+        numbers["poisson_ratio"] = check_number("poisson_ratio", self.poisson_ratio, above=0.0, below=0.5)
+        numbers["tip_shortening"] = check_number("tip_shortening", self.tip_shortening, at_least=0.0)
+        if self.tip_radius is not None:
+            numbers["tip_radius"] = check_number("tip_radius", self.tip_radius, at_least=0.0)
+        for name, value in numbers.items():
+            object.__setattr__(self, name, value)
+        self._check_rack()
+        for who, gear in (("pinion", self.pinion), ("gear", self.gear)):
+            self._check_gear(who, gear)
+        self._check_mesh()
+
+    def replace(self, **changes: Any) -> SpurPair:
+        """Return a copy with some parameters changed, checked like a new pair.
+
+        Examples
+        --------
+        >>> SpurPair().replace(gear_teeth=54).gear_teeth
+        54
+        """
+        return dataclasses.replace(self, **changes)
+
+    @property
+    def pressure_angle(self) -> float:
+        """The rack's pressure angle alpha, in radians."""
+        return math.radians(self.pressure_angle_deg)
+
+    @property
+    def rack_tip_radius(self) -> float:
+        """Radius of the rack's tip arc in modules: `tip_radius`, or its default."""
+        if self.tip_radius is None:
+            return min(self.clearance / (1 - math.sin(self.pressure_angle)), self._full_round)
+        return self.tip_radius
+
+    @property
+    def base_pitch_mm(self) -> float:
+        """Distance of neighbouring contacts on the line of action: ``p_b = pi m cos(alpha)``."""
+        return math.pi * self.module_mm * math.cos(self.pressure_angle)
+
+    @cached_property
+    def working_pressure_angle(self) -> float:
+        """alpha_w in radians, at which the shifted pair meshes without backlash (ISO 21771)."""
+        shifts = self.pinion_shift + self.gear_shift
+        if shifts == 0.0:
+            return self.pressure_angle
+        alpha = self.pressure_angle
+        involute = _involute(alpha) + 2 * shifts * math.tan(alpha) / (self.pinion_teeth + self.gear_teeth)
+        if involute <= 0.0:
+            least = -_involute(alpha) * (self.pinion_teeth + self.gear_teeth) / (2 * math.tan(alpha))
+            raise ValueError(
+                f"pinion_shift + gear_shift must be above {least:g} for the pair to mesh at all, got {shifts:g}"
+            )
+        return _inverse_involute(involute)
+
+    @property
+    def centre_distance_mm(self) -> float:
+        """Working centre distance a_w."""
+        reference = self.module_mm * (self.pinion_teeth + self.gear_teeth) / 2
+        return reference * math.cos(self.pressure_angle) / math.cos(self.working_pressure_angle)
+
+    @property
+    def full_clearance_shortening(self) -> float:
+        """The `tip_shortening` (in modules) that gives a shifted pair its clearance c again (ISO 21771).
+
+        Examples
+        --------
+        >>> round(SpurPair(pinion_shift=0.3, gear_shift=0.2).full_clearance_shortening, 4)
+        0.024
+        """
+        reference = (self.pinion_teeth + self.gear_teeth) / 2
+        return self.pinion_shift + self.gear_shift - (self.centre_distance_mm / self.module_mm - reference)
+
+    @cached_property
+    def pinion(self) -> SpurGear:
+        """The driving gear."""
+        return self._gear(self.pinion_teeth, self.pinion_shift)
+
+    @cached_property
+    def gear(self) -> SpurGear:
+        """The driven gear."""
+        return self._gear(self.gear_teeth, self.gear_shift)
+
+    @property
+    def line_of_action_mm(self) -> float:
+        """Distance between the two base-tangent points, ``a_w sin(alpha_w)``."""
+        return self.centre_distance_mm * math.sin(self.working_pressure_angle)
+
+    @property
+    def contact_start_mm(self) -> float:
+        """Start of contact (the gear's tip), along the line of action from the pinion's tangent point."""
+        return self.line_of_action_mm - math.sqrt(self.gear.tip_circle_mm**2 - self.gear.base_radius_mm**2)
+
+    @property
+    def contact_end_mm(self) -> float:
+        """End of contact (the pinion's tip), along the line of action from the pinion's tangent point."""
+        return math.sqrt(self.pinion.tip_circle_mm**2 - self.pinion.base_radius_mm**2)
+
+    @property
+    def contact_ratio(self) -> float:
+        """epsilon: length of the path of contact over the base pitch."""
+        return (self.contact_end_mm - self.contact_start_mm) / self.base_pitch_mm
+
+    def _gear(self, teeth: int, shift: float) -> SpurGear:
+        m, alpha, radius = self.module_mm, self.pressure_angle, self.module_mm * teeth / 2
+        straight = self._straight_depth - shift
+        form_tangent = radius * math.sin(alpha) - m * straight / math.sin(alpha)
+        base = radius * math.cos(alpha)
+        return SpurGear(
+            teeth=teeth,
+            module_mm=m,
+            pressure_angle=alpha,
+            shift=shift,
+            pitch_radius_mm=radius,
+            base_radius_mm=base,
+            tip_circle_mm=radius + m * (self.addendum + shift - self.tip_shortening),
+            root_circle_mm=radius - m * (self.addendum + self.clearance - shift),
+            bore_mm=self.bore_ratio * radius,
+            form_circle_mm=math.hypot(base, max(form_tangent, 0.0)),
+            rack_tip_radius_mm=m * self.rack_tip_radius,
+            rack_tip_depth_mm=m * (self.addendum + self.clearance - self.rack_tip_radius - shift),
+            rack_tip_offset_mm=m * self._rack_tip_offset,
+        )
+
+    @property
+    def _straight_depth(self) -> float:
+        """Depth of the rack's straight flank below its reference line, in modules."""
+        return self.addendum + self.clearance - self.rack_tip_radius * (1 - math.sin(self.pressure_angle))
+
+    @property
+    def _full_round(self) -> float:
+        """Radius of the tip arc that leaves no flat, in modules; negative when the rack's tooth is pointed."""
+        alpha, depth = self.pressure_angle, self.addendum + self.clearance
+        return (math.pi / 4 - depth * math.tan(alpha)) * math.cos(alpha) / (1 - math.sin(alpha))
+
+    @property
+    def _rack_tip_offset(self) -> float:
+        alpha, depth = self.pressure_angle, self.addendum + self.clearance - self.rack_tip_radius
+        offset = math.pi / 4 - depth * math.tan(alpha) - self.rack_tip_radius / math.cos(alpha)
+        return max(offset, 0.0)  # a fully round tip, rounded
+
+    def _check_rack(self) -> None:
+        most, depth = self._full_round, self.addendum + self.clearance
+        if most < 0.0:
+            deepest = math.pi / 4 / math.tan(self.pressure_angle)
+            raise ValueError(
+                f"addendum + clearance = {depth:g} makes the rack's tooth pointed: it must be below {deepest:g}"
+            )
+        if self.rack_tip_radius > most:
+            raise ValueError(
+                f"tip_radius = {self.rack_tip_radius:g} modules does not fit the rack's tip: "
+                f"it must be at most {most:g}"
+            )
+
+    def _check_gear(self, who: str, gear: SpurGear) -> None:
+        sine2 = math.sin(gear.pressure_angle) ** 2
+        least_shift = self._straight_depth - gear.teeth * sine2 / 2
+        if gear.shift < least_shift - _ROUNDING:
+            least_teeth = math.ceil(2 * (self._straight_depth - gear.shift) / sine2)
+            raise ValueError(
+                f"{who}_teeth = {gear.teeth} is undercut: {who}_shift is {gear.shift:g} and must be at least "
+                f"{least_shift:g}, or {who}_teeth at least {least_teeth}"
+            )
+        if gear.bore_mm >= gear.root_circle_mm:
+            limit = gear.root_circle_mm / gear.pitch_radius_mm
+            raise ValueError(
+                f"bore_ratio = {self.bore_ratio:g} puts the {who}'s bore at or beyond its root circle: "
+                f"it must be below {limit:g}"
+            )
+        if gear.tip_circle_mm <= gear.form_circle_mm:
+            raise ValueError(
+                f"the {who}'s tip circle, radius {gear.tip_circle_mm:g} mm, leaves no involute: "
+                f"it must be above {gear.form_circle_mm:g} mm"
+            )
+        if gear.tip_thickness_mm <= 0.0:
+            raise ValueError(
+                f"the {who}'s teeth are pointed: thickness at the tip is {gear.tip_thickness_mm:g} mm "
+                "and must be above 0; take less addendum or shift"
+            )
+
+    def _check_mesh(self) -> None:
+        length = self.line_of_action_mm
+        for who, gear, mate, tip_tangent in (
+            ("pinion", self.pinion, self.gear, self.contact_end_mm),
+            ("gear", self.gear, self.pinion, length - self.contact_start_mm),
+        ):
+            other = "gear" if who == "pinion" else "pinion"
+            most = self.centre_distance_mm - mate.root_circle_mm
+            if gear.tip_circle_mm > most * (1 + _ROUNDING):
+                raise ValueError(
+                    f"the {who}'s tip circle reaches the {other}'s root circle: its radius is "
+                    f"{gear.tip_circle_mm:g} mm and must be at most {most:g} mm"
+                )
+            lowest, form = length - tip_tangent, math.sqrt(mate.form_circle_mm**2 - mate.base_radius_mm**2)
+            if lowest < form - _ROUNDING * length:
+                raise ValueError(
+                    f"interference: the {who}'s tip meets the {other} {lowest:g} mm along the line of action from "
+                    f"the {other}'s base circle, and the {other}'s involute begins at {form:g} mm"
+                )
+        if self.contact_ratio < 1.0:
+            raise ValueError(f"contact ratio is {self.contact_ratio:g} and must be at least 1: contact would be lost")
