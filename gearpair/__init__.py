@@ -8,6 +8,7 @@ from gearpair.batches import Status
 from gearpair.bifurcation_curves import BifurcationCurve, continue_bifurcation
 from gearpair.branch_search import coexistence, doubling_cascade, find_branches
 from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit
+from gearpair.chaos_test import zero_one_test
 from gearpair.comparison import compare_boundaries, compare_ranges
 from gearpair.drive import GearDrive
 from gearpair.exponents import lyapunov_exponents
@@ -38,6 +39,7 @@ from gearpair.sweeps import sweep
 from gearpair.tables import Table
 
 __all__ = [
+    "zero_one_test",
     "coexistence",
     "doubling_cascade",
     "apparent_period",
