@@ -82,8 +82,8 @@ def label(motion: int, parameter: str) -> str:
     Returns
     -------
     str
-        On the frequency axis ``"1"``, ``"2"``, ``"4"``, and ``"complex"`` for all else: the article's complex zone holds
-        chaotic bands and windows of other periods. On the damping axis the period, and ``"chaotic"`` for none.
+        On the frequency axis ``"1"``, ``"2"``, ``"4"``, and ``"complex"`` for all else: the article's complex zone
+        holds chaotic bands and windows of other periods. On the damping axis the period, and ``"chaotic"`` for none.
 
     Examples
     --------
@@ -129,9 +129,9 @@ def score(parameter: str, values: ArrayLike, motions: ArrayLike) -> Score:
     Notes
     -----
     The table is a staircase: each value stands for the interval up to the middle between it and its neighbours. Its
-    runs of equal labels, without those narrower than 1/50 of the axis, give the sequence and the boundaries. A published
-    boundary is matched by the nearest computed boundary with the same label on either side; several published boundaries
-    may share one.
+    runs of equal labels, without those narrower than 1/50 of the axis, give the sequence and the boundaries. A
+    published boundary is matched by the nearest computed boundary with the same label on either side; several
+    published boundaries may share one.
 
     Examples
     --------
