@@ -6,25 +6,45 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 from gearpair import published
 from gearpair.batches import Status
 from gearpair.bifurcation_curves import BifurcationCurve, continue_bifurcation
-from gearpair.branch_search import find_branches
+from gearpair.branch_search import coexistence, doubling_cascade, find_branches
 from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit
+from gearpair.chaos_test import zero_one_test
+from gearpair.comparison import compare_boundaries, compare_ranges
 from gearpair.drive import GearDrive
 from gearpair.exponents import lyapunov_exponents
 from gearpair.impacts import ImpactState, impact_state
 from gearpair.initial_conditions import basins
+from gearpair.integrators import apparent_period, runge_kutta_section, runge_kutta_sweep
 from gearpair.iso6336 import IsoStiffness, iso_stiffness
 from gearpair.maps import parameter_map
 from gearpair.meshing import MeshStiffness, mesh_stiffness
 from gearpair.motion import Impacts, Trajectory, stroboscopic_map, trajectory
 from gearpair.orbits import NewtonStatus, PeriodicOrbit, find_orbits, periodic_orbit
 from gearpair.oscillator import Oscillator
+from gearpair.ranges import (
+    MotionRange,
+    attractor_names,
+    follow,
+    found_ranges,
+    motion_name,
+    motion_ranges,
+    motion_shares,
+    representatives,
+)
 from gearpair.spectra import Spectrum, spectrum
 from gearpair.spurpair import SpurPair
 from gearpair.steady import SteadyState, steady_state
 from gearpair.stiffness import StiffnessWave
 from gearpair.sweeps import sweep
+from gearpair.tables import Table
 
 __all__ = [
+    "zero_one_test",
+    "coexistence",
+    "doubling_cascade",
+    "apparent_period",
+    "runge_kutta_section",
+    "runge_kutta_sweep",
     "Bifurcation",
     "BifurcationCurve",
     "Branch",
@@ -33,6 +53,7 @@ __all__ = [
     "Impacts",
     "IsoStiffness",
     "MeshStiffness",
+    "MotionRange",
     "NewtonStatus",
     "Oscillator",
     "PeriodicOrbit",
@@ -41,23 +62,33 @@ __all__ = [
     "Status",
     "SteadyState",
     "StiffnessWave",
+    "Table",
     "Trajectory",
+    "attractor_names",
     "basins",
+    "compare_boundaries",
+    "compare_ranges",
     "continue_bifurcation",
     "continue_orbit",
     "doubled_orbit",
     "find_branches",
     "find_orbits",
+    "follow",
+    "found_ranges",
     "impact_state",
     "iso_stiffness",
     "lyapunov_exponents",
     "mesh_stiffness",
+    "motion_name",
+    "motion_ranges",
+    "motion_shares",
     "parameter_map",
     "published",
     "runge_kutta_section",
     "runge_kutta_sweep",
     "periodic_orbit",
     "published",
+    "representatives",
     "spectrum",
     "steady_state",
     "stroboscopic_map",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gearpair._checks import check_count
-from gearpair.branches import LARGEST_STEP, LARGEST_X, Bifurcation, Branch, continue_orbit, doubled_orbit
+from gearpair.branches import LARGEST_STEP, Bifurcation, Branch, continue_orbit, doubled_orbit, largest_x
 from gearpair.orbits import SAME_ORBIT, PeriodicOrbit, find_orbits, periodic_orbit
 from gearpair.oscillator import Oscillator
 
@@ -71,7 +71,7 @@ def _start(
 ) -> PeriodicOrbit | None:
     """The orbit to continue from an orbit or a flip, or None where that leads to nothing new."""
     if isinstance(found, PeriodicOrbit):
-        large = max(-found.x_min, found.x_max) > LARGEST_X
+        large = max(-found.x_min, found.x_max) > largest_x(found.oscillator)
         return None if large or any(_on_branch(branch, found) for branch in branches) else found
     for branch in branches:
         if branch.period == 2 * found.period and np.any(np.abs(branch.values[[0, -1]] - found.value) < 1e-6):
@@ -98,3 +98,116 @@ def _on_branch(branch: Branch, orbit: PeriodicOrbit) -> bool:
         if found.converged and np.min(np.max(np.abs(orbit.points - found.points[0]), axis=1)) < SAME_ORBIT:
             return True
     return False
+
+
+def doubling_cascade(flip: Bifurcation, levels: int = 5) -> list[Bifurcation]:
+    """The flips of a period-doubling sequence, from its first on.
+
+    Parameters
+    ----------
+    flip : Bifurcation
+        Of kind ``"flip"``; the doubled branch is followed on the side where it is born.
+    levels : int
+        How many flips at most, the first included.
+
+    Returns
+    -------
+    list of Bifurcation
+        Each of twice the period of the one before it; shorter than `levels` where a branch has no
+        further flip (a fold or a grazing ended the sequence) or the next could not be resolved.
+
+    Raises
+    ------
+    ValueError
+        For a bifurcation of another kind, or `levels` below 1.
+
+    Notes
+    -----
+    Where nothing interferes the gaps between the flips shrink by 4.669 (Feigenbaum, 1978).
+    """
+    flips = [flip]
+    check_count("levels", levels)
+    width = 0.1 * max(abs(flip.value), 1e-3)
+    while len(flips) < levels:
+        last = flips[-1]
+        try:
+            orbit = doubled_orbit(last)
+        except RuntimeError:
+            break
+        value = orbit.oscillator.parameter(last.parameter)
+        side = 1.0 if value > last.value else -1.0
+        lower, upper = sorted((last.value - 0.05 * side * width, last.value + side * width))
+        branch = continue_orbit(
+            orbit, last.parameter, min(lower, value), max(upper, value), largest_step=0.5 * LARGEST_STEP, max_steps=400
+        )
+        beyond = [b for b in branch.bifurcations if b.kind == "flip" and side * (b.value - last.value) > 0.0]
+        if not beyond:
+            break
+        flips.append(min(beyond, key=lambda b: abs(b.value - last.value)))
+        width = abs(flips[-1].value - flips[-2].value)
+    return flips
+
+
+def coexistence(
+    branches: list[Branch], lower: float, upper: float, *, shortest: float = 0.0
+) -> list[tuple[float, float, tuple[str, ...]]]:
+    """Which stable orbits of a set of branches exist together, range by range.
+
+    Parameters
+    ----------
+    branches : list of Branch
+        Along one parameter.
+    lower, upper : float
+        The range of the parameter.
+    shortest : float
+        Ranges narrower than this are left out.
+
+    Returns
+    -------
+    list of (float, float, tuple of str)
+        Start, end, and the stable orbits there, such as ``("period 1 double", "period 2 single_drive")``.
+        Orbits of one period and impact state on one branch count once each.
+    """
+    pieces = [piece for branch in branches for piece in _stable_pieces(branch) if piece[1] - piece[0] >= shortest]
+    edges = sorted({lower, upper, *(v for low, high, _ in pieces for v in (low, high) if lower < v < upper)})
+    ranges: list[tuple[float, float, tuple[str, ...]]] = []
+    for left, right in zip(edges, edges[1:], strict=False):
+        middle = 0.5 * (left + right)
+        names = tuple(sorted(name for low, high, name in pieces if low <= middle <= high))
+        if ranges and ranges[-1][2] == names:
+            ranges[-1] = (ranges[-1][0], right, names)
+        else:
+            ranges.append((left, right, names))
+    return [each for each in ranges if each[1] - each[0] >= shortest]
+
+
+def _stable_pieces(branch: Branch) -> list[tuple[float, float, str]]:
+    """Parameter ranges of the stable orbits of a branch, cut where the impact state changes or the branch turns."""
+    states = branch.impact_states()
+    pieces: list[tuple[float, float, str]] = []
+    start = None
+    for i in range(len(branch.values) + 1):
+        inside = i < len(branch.values) and branch.stable[i]
+        if start is not None and (not inside or states[i] != states[start] or _turns(branch, start, i)):
+            ends = [_edge(branch, start - 1, start), _edge(branch, i - 1, i)]
+            pieces.append((min(ends), max(ends), f"period {branch.period} {states[start]}"))
+            start = None
+        if inside and start is None:
+            start = i
+    return pieces
+
+
+def _turns(branch: Branch, start: int, i: int) -> bool:
+    """Whether the branch turns back in the parameter at orbit ``i - 1``, after `start`."""
+    steps = np.diff(branch.values[max(i - 2, start) : i + 1])
+    return len(steps) == 2 and steps[0] * steps[1] < 0.0
+
+
+def _edge(branch: Branch, i: int, j: int) -> float:
+    """The bifurcation's value between orbits `i` and `j` of a branch, or the branch's own end."""
+    if i < 0 or j >= len(branch.values):
+        return float(branch.values[max(i, 0) if j >= len(branch.values) else j])
+    low, high = sorted(branch.values[[i, j]].tolist())
+    margin = high - low
+    near = [b.value for b in branch.bifurcations if low - margin <= b.value <= high + margin]
+    return min(near, key=lambda value: abs(value - 0.5 * (low + high))) if near else 0.5 * (low + high)

@@ -20,8 +20,8 @@ from gearpair.oscillator import Oscillator
 Kind = Literal["fold", "flip", "grazing"]
 FIRST_STEP, SMALLEST_STEP, LARGEST_STEP = 2e-3, 1e-9, 2e-2  # in scaled arc length
 MERGED = 0.1  # where two points pass each other by less than this share of how far they moved, they have met
-LARGEST_X = 20.0  # branches that run to infinity, as contact's parametric resonance makes them, are left here
-TOUCHING = 1e-9  # a located grazing's distance from the boundary is below this
+LARGEST_X = 20.0  # where branches that run to infinity, by contact's parametric resonance, are left; see largest_x
+TOUCHING = 1e-9  # two points, or a turning point and a boundary, that lie closer than this touch
 
 
 @dataclass(frozen=True)
@@ -192,6 +192,11 @@ def continue_orbit(
     )
 
 
+def largest_x(osc: Oscillator) -> float:
+    """Where a branch is left: `LARGEST_X` times the static position, 1 + |F_m| / (mean stiffness)."""
+    return LARGEST_X * (1.0 + abs(osc.mean_force) / osc.stiffness.mean)
+
+
 CLOSED = "closed: the branch returned to its start"
 
 
@@ -200,6 +205,7 @@ def _walk(
 ) -> tuple[list[Step[Cycle]], str]:
     """The steps from `start` in one direction, and why they end."""
     name, scale = problem.names[0], problem.scales[0]
+    limit = largest_x(problem.osc)
     direction = np.array([0.0, 0.0, sign])
     steps: list[Step[Cycle]] = []
     walk = follow(
@@ -207,10 +213,10 @@ def _walk(
     )
     for step in walk:
         value = step.u[2] * scale
-        if not lower <= value <= upper:
+        if steps and not lower <= value <= upper:
             bound = lower if value < lower else upper
-            edge = _at_value(problem, steps[-1], step, bound) if steps else None
-            if edge is not None:
+            edge = _at_value(problem, steps[-1], step, bound)
+            if edge is not None and np.max(np.abs(edge.u - steps[-1].u)) > SMALLEST_STEP:
                 steps.append(edge)
             return steps, f"reached {name} = {bound:g}"
         merged = _merging(problem, steps[-1], step) if steps else None
@@ -218,8 +224,8 @@ def _walk(
             steps.append(merged)
             return steps, f"merges at {name} = {merged.u[2] * scale:.8g} with the orbit of half its period (flip)"
         steps.append(step)
-        if max(-step.data.x_min, step.data.x_max) > LARGEST_X:
-            return steps, f"grows beyond |X| = {LARGEST_X:g} at {name} = {value:.8g}"
+        if max(-step.data.x_min, step.data.x_max) > limit:
+            return steps, f"grows beyond |X| = {limit:g} at {name} = {value:.8g}"
         away = np.linalg.norm(step.u - start)
         if len(steps) > 20 and away < np.linalg.norm(step.u - steps[-2].u) and step.tangent @ steps[0].tangent > 0.5:
             return steps, CLOSED
@@ -234,10 +240,11 @@ def _merging(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> Step[Cycl
     There the doubled branch and the shorter orbit's own cross, so the flip's own equations are solved.
     """
     before, after = a.data.half_gap, b.data.half_gap
-    if before @ after >= 0.0:
+    collapsed = np.linalg.norm(after) < TOUCHING  # the step has landed on the shorter orbit's own branch
+    if before @ after >= 0.0 and not collapsed:
         return None
     share = before @ (before - after) / np.sum((before - after) ** 2)
-    if np.linalg.norm(before + share * (after - before)) > MERGED * np.linalg.norm(before - after):
+    if not collapsed and np.linalg.norm(before + share * (after - before)) > MERGED * np.linalg.norm(before - after):
         return None
     from scipy.optimize import root  # here, so that importing gearpair stays quick
 
@@ -249,11 +256,12 @@ def _merging(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> Step[Cycl
         found = half.equations(u)
         return np.append(found[0], half.cycle(u).flip_test) if found is not None else np.full(3, np.inf)
 
-    middle = (1.0 - share) * a.u + share * b.u
-    middle[:2] += 0.5 * ((1.0 - share) * before + share * after)
+    middle = a.u.copy() if collapsed else (1.0 - share) * a.u + share * b.u
+    middle[:2] += 0.5 * before if collapsed else 0.5 * ((1.0 - share) * before + share * after)
     solution = root(flip, middle, tol=1e-13)
-    if np.max(np.abs(solution.fun)) > 1e-9 or np.linalg.norm(solution.x - middle) > np.linalg.norm(b.u - a.u):
-        return None
+    lost = np.max(np.abs(solution.fun)) > 1e-9 or np.linalg.norm(solution.x - middle) > np.linalg.norm(b.u - a.u)
+    if lost:
+        return a if collapsed else None
     return Step(solution.x, a.tangent, int(solution.nfev), problem.cycle(solution.x))
 
 
@@ -376,7 +384,7 @@ def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
     problem = OrbitProblem(osc, 2 * bifurcation.period, {name: max(abs(bifurcation.value), 1e-3)})
     u = problem.unknowns(bifurcation.x, bifurcation.v)
     normal = np.array([*across, 0.0])
-    for distance in (1e-3, 1e-4, 1e-2, 1e-5):
+    for distance in (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-3, 1e-2):
         found = correct(problem.equations, u + distance * normal, normal)
         if found is not None and np.max(np.abs(problem.cycle(found[0]).half_gap)) > distance:
             x, v = found[0][:2].tolist()

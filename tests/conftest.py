@@ -6,6 +6,7 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
+collect_ignore = ["finite_elements"]  # run by hand, with packages that the tests do not need
 FIRST = ("test_layers.py", "test_style.py")
 
 

@@ -1,17 +1,24 @@
 """Independent references for the exact flow: nothing here is shared with `gearpair._flow`.
 
-`dop853_period` integrates each linear piece by DOP853 and restarts at every event. `Reference`
-solves each linear piece in closed form with 50 digits (matrix exponential through the characteristic roots,
-which 50 digits make harmless near their degeneracies) and finds events by dense sampling and bisection.
+`dop853_period` integrates each linear piece by DOP853 and restarts at every event. `mpmath_period`
+solves each linear piece with a hundred digits and finds events by brute force: dense
+sampling of X'' parts the piece where X' is monotone, its roots part it where X is, and bisection does the rest.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import numpy as np
+from mpmath import mp, mpc, mpf
 from scipy.integrate import solve_ivp
 
 import gearpair as gp
 from gearpair._flow.cells import Parameters
+
+mp.dps = 100
+# Added to every stiffness: it parts coinciding roots and resonances, and shifts the answer by as little.
+NUDGE = mpf(10) ** -40
 
 
 def kernel_parameters(osc: gp.Oscillator) -> Parameters:
@@ -21,7 +28,7 @@ def kernel_parameters(osc: gp.Oscillator) -> Parameters:
 
 
 def right_hand_side(osc: gp.Oscillator):
-    """(tau, (X, X')) -> (X', X'') written from the article's equation."""
+    """(tau, (X, X')) -> (X', X''), the article's equation."""
 
     def slope(tau, y):
         x, v = y
@@ -32,3 +39,206 @@ def right_hand_side(osc: gp.Oscillator):
         return v, force - 2.0 * osc.damping_ratio * v - float(osc.stiffness(tau / osc.period)) * gap
 
     return slope
+
+
+def dop853_period(osc: gp.Oscillator, x: float, v: float) -> tuple[float, float]:
+    """The state after one mesh period from the start of one."""
+    zeta, omega = osc.damping_ratio, osc.mesh_frequency
+    edges = [*osc.stiffness.edges, 1.0]
+    region = 0
+    for i, level in enumerate(osc.stiffness.levels):
+        tau, end = edges[i] * osc.period, edges[i + 1] * osc.period
+        while tau < end:
+            force = osc.force(tau)
+            rates = (v, force - 2.0 * zeta * v, osc.error_amplitude * omega**3 * np.cos(omega * tau + osc.error_phase))
+            way = next((rate for rate in rates if rate != 0.0), 0.0)
+            region = 1 if x > 1.0 or (x == 1.0 and way > 0.0) else -1 if x < -1.0 or (x == -1.0 and way < 0.0) else 0
+            stiffness = level * abs(region)
+
+            def slope(t, y, stiffness=stiffness, region=region):
+                return y[1], osc.force(t) - 2.0 * zeta * y[1] - stiffness * (y[0] - region)
+
+            leave = []
+            for boundary, direction in ((1.0, 1.0), (-1.0, -1.0)):
+                if region == 0 or region == boundary:
+                    leave.append(lambda t, y, boundary=boundary: y[0] - boundary)
+                    leave[-1].terminal = True
+                    leave[-1].direction = direction if region == 0 else -direction
+            if abs(x) == 1.0:  # leave the boundary first, or its event is found again
+                away = min(osc.period / 100, 0.25 * abs(v) / max(abs(rates[1]), v * v, 1e-300))
+                leave = leave if v == 0.0 else []
+            run = solve_ivp(
+                slope,
+                (tau, min(end, tau + away) if not leave else end),
+                (x, v),
+                "DOP853",
+                events=leave,
+                rtol=1e-13,
+                atol=1e-14,
+                max_step=osc.period / 20,
+            )
+            tau, (x, v) = run.t[-1], run.y[:, -1]
+            if run.status == 1:
+                x = 1.0 if x > 0.0 else -1.0
+    return x, v
+
+
+class Piece:
+    """One linear piece in closed form: a constant, a forced and two free terms, all complex exponentials."""
+
+    def __init__(self, osc, level, region, theta, x, v):
+        zeta, omega = mpf(osc.damping_ratio), mpf(osc.mesh_frequency)
+        force, amplitude = mpf(osc.mean_force), mpf(osc.error_amplitude) * omega**2
+        kappa = (mpf(level) if region else mpf(0)) + NUDGE
+        root = mp.sqrt(mpc(zeta * zeta - kappa))
+        forced = amplitude * mp.expj(theta) / mpc(kappa - omega**2, 2 * zeta * omega)
+        self.rates = (root - zeta, -root - zeta, mpc(0, omega))
+        self.rest = region + force / kappa
+        # Free terms from the start: a + b = y, r a + q b = u.
+        y, u = x - self.rest - forced.imag, v - (self.rates[2] * forced).imag
+        r, q = self.rates[:2]
+        self.terms = ((u - q * y) / (r - q), (r * y - u) / (r - q))
+        self.forced = forced
+        self.x = x
+
+    def at(self, h):
+        """X, X', X'' at time h after the piece's start."""
+        values = [c * mp.exp(r * h) for c, r in zip(self.terms, self.rates, strict=False)]
+        wave = self.forced * mp.exp(self.rates[2] * h)
+        out = []
+        for n in range(3):
+            free = sum(c * r**n for c, r in zip(values, self.rates, strict=False)).real
+            out.append(free + (wave * self.rates[2] ** n).imag + (self.rest if n == 0 else 0))
+        return out
+
+    def matrix(self, h):
+        """The variational matrix over h."""
+        r, q = self.rates[:2]
+        e, f = mp.exp(r * h), mp.exp(q * h)
+        rows = [[r * f - q * e, e - f], [r * q * (f - e), r * e - q * f]]
+        return mp.matrix([[(entry / (r - q)).real for entry in row] for row in rows])
+
+    def roots(self, n, points):
+        """Roots of the n-th derivative, which is monotone between neighbours in `points`."""
+        values = [self.at(h)[n] for h in points]
+        return [
+            bisect(lambda h: self.at(h)[n], a, b, p)
+            for a, b, p, q in zip(points, points[1:], values, values[1:], strict=False)
+            if p * q < 0
+        ]
+
+    def first_exit(self, floor, ceiling, end, samples):
+        """(h, boundary) of the first crossing in (0, end], or None."""
+        points = [end * i / samples for i in range(samples + 1)]
+        points = sorted([mpf(0), *self.roots(2, points), end])
+        points = sorted([mpf(0), *self.roots(1, points), end])
+        before = self.x
+        for a, b in zip(points, points[1:], strict=False):
+            after = self.at(b)[0]
+            for boundary, left in ((ceiling, after > ceiling), (floor, after < floor)):
+                if left:
+                    return bisect(
+                        lambda h, boundary=boundary: self.at(h)[0] - boundary, a, b, before - boundary
+                    ), boundary
+            before = after
+        return None
+
+
+def bisect(f, a, b, fa):
+    """A root of f between a and b to sixty digits: bisection, then the secant in its bracket."""
+    for _ in range(12):
+        middle = (a + b) / 2
+        fm = f(middle)
+        if fm * fa > 0:
+            a, fa = middle, fm
+        else:
+            b = middle
+    fb = f(b)
+    if fb == 0 or fa == 0:
+        return b if fb == 0 else a
+    # Illinois: a secant that always keeps the bracket.
+    for _ in range(60):
+        c = (a * fb - b * fa) / (fb - fa)
+        fc = f(c)
+        if abs(b - a) < mpf(10) ** -60 or abs(fc) < mpf(10) ** -70:
+            return c
+        if fc * fb < 0:
+            a, fa = b, fb
+        else:
+            fa /= 2
+        b, fb = c, fc
+    return b
+
+
+@dataclass
+class Reference:
+    """A period in 100 digits: the end, the crossings (time in mesh periods, boundary, velocity, contact), the monodromy."""
+
+    x: mpf
+    v: mpf
+    crossings: list = field(default_factory=list)
+    pieces: list = field(default_factory=list)
+
+    @property
+    def monodromy(self):
+        """The product of the pieces' variational matrices."""
+        return self._tail(0)
+
+    @property
+    def amplification(self) -> float:
+        """The most that an error made at any piece's start grows until the end, at least 1."""
+        return max(1.0, *(float(mp.norm(self._tail(i), mp.inf)) for i in range(len(self.pieces))))
+
+    def _tail(self, first):
+        product = mp.eye(2)
+        for piece in self.pieces[first:]:
+            product = piece * product
+        return product
+
+    def error(self, x: float, v: float) -> float:
+        """How far (x, v) is from the end, relative to max(1, |state|)."""
+        return float(max(abs(x - self.x), abs(v - self.v)) / max(1, abs(self.x), abs(self.v)))
+
+
+def mpmath_period(osc: gp.Oscillator, x: float, v: float) -> Reference:
+    """One mesh period from the start of one."""
+    omega, zeta = mpf(osc.mesh_frequency), mpf(osc.damping_ratio)
+    period = 2 * mp.pi / omega
+    edges = [mpf(e) for e in (*osc.stiffness.edges, 1)]
+    out = Reference(mpf(x), mpf(v))
+    region = None
+    for i, level in enumerate(osc.stiffness.levels):
+        tau, end = edges[i] * period, edges[i + 1] * period
+        while tau < end:
+            theta = omega * tau + mpf(osc.error_phase)
+            if region is None:
+                region = entered(osc, out.x, out.v, theta)
+            floor = {-1: -mp.inf, 0: mpf(-1), 1: mpf(1)}[region]
+            ceiling = {-1: mpf(-1), 0: mpf(1), 1: mp.inf}[region]
+            piece = Piece(osc, level, region, theta, out.x, out.v)
+            rate = max(omega, mp.sqrt(mpf(level)), 2 * zeta if zeta**2 > level else 0)
+            found = piece.first_exit(floor, ceiling, end - tau, 6 + int(12 * rate * (end - tau)))
+            h = end - tau if found is None else found[0]
+            out.x, out.v, _ = piece.at(h)
+            out.pieces.append(piece.matrix(h))
+            tau += h
+            if found is None:
+                break
+            out.x = found[1]
+            out.crossings.append((float(tau / period), int(out.x), float(out.v), region == 0))
+            region = int(out.x) if region == 0 else 0
+    return out
+
+
+def entered(osc, x, v, theta):
+    """The region that the motion enters: on a boundary its first non-zero derivative decides."""
+    if abs(x) != 1:
+        return int(x > 1) - int(x < -1)
+    amplitude = mpf(osc.error_amplitude) * mpf(osc.mesh_frequency) ** 2
+    rates = (
+        v,
+        mpf(osc.mean_force) + amplitude * mp.sin(theta) - 2 * mpf(osc.damping_ratio) * v,
+        amplitude * mp.cos(theta),
+    )
+    way = next((rate for rate in rates if rate != 0), mpf(0))
+    return int(x) if way * x > 0 else 0

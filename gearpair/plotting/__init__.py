@@ -5,7 +5,15 @@ colour-blind readers. Nothing is set at import: ``plt.style.use(STYLE)``, or ``w
 the book's look.
 """
 
-from gearpair.plotting.diagrams import bifurcation_diagram, exponents, extremes, motion_shares, range_strips
+from gearpair.plotting.branches import bifurcation_curves, branches
+from gearpair.plotting.diagrams import (
+    bifurcation_diagram,
+    exponents,
+    extremes,
+    motion_shares,
+    range_lanes,
+    range_strips,
+)
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, motion_colour
@@ -16,7 +24,9 @@ __all__ = [
     "STYLE",
     "attractor_points",
     "basins",
+    "bifurcation_curves",
     "bifurcation_diagram",
+    "branches",
     "exponents",
     "extremes",
     "finite_exponents",
@@ -28,6 +38,7 @@ __all__ = [
     "phase_portrait",
     "poincare_section",
     "portrait",
+    "range_lanes",
     "range_strips",
     "spectrum",
     "stiffness_wave",

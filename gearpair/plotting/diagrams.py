@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.patches import Patch
 
 from gearpair.plotting.style import (
     BACKLASH,
@@ -21,10 +22,12 @@ from gearpair.plotting.style import (
 from gearpair.published import Range
 from gearpair.ranges import MotionRange, motion_names, motion_order, motion_ranges, swept_parameter
 
-NARROWEST_NAMED = 0.028  # a range is named inside its bar where it is at least this share of the axis wide
+LETTER = 0.0115  # share of the axis that a letter of a bar's name takes
 
 
-def bifurcation_diagram(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True, size: float = 1.1) -> Axes:
+def bifurcation_diagram(
+    sweep: xr.Dataset, ax: Axes | None = None, *, title: str = "", legend: bool = True, size: float = 1.1
+) -> Axes:
     """Section points of X at each value of a sweep, coloured by the motion's period.
 
     Parameters
@@ -32,6 +35,8 @@ def bifurcation_diagram(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bo
     sweep : xarray.Dataset
         Of `gearpair.sweep`.
     ax : Axes, optional
+    title : str
+        Stands inside the axes, top left.
     legend : bool
         Name the colours above the axes.
     size : float
@@ -55,6 +60,7 @@ def bifurcation_diagram(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bo
             markersize=0.6 * size if many else 1.6 * size, alpha=0.5 if many else 1.0, color=motion_colour(name),
         )  # fmt: skip
     ax.set(xlabel=LABELS[parameter], ylabel=LABELS["section"], xlim=(values.min(), values.max()))
+    ax.annotate(title, (0.0, 1.0), xytext=(6, -4), xycoords="axes fraction", textcoords="offset points", va="top")
     if legend:
         add_motion_legend(ax, motion_names(sweep).tolist())
     return ax
@@ -175,9 +181,9 @@ def range_strips(
             row, high - low, left=low, height=0.8, color=motion_colour(name), hatch=hatch, linewidth=0,
             edgecolor="white", alpha=0.75 if hatch else 1.0,
         )  # fmt: skip
-        if high - low >= NARROWEST_NAMED * (right - left):
-            text = name.removeprefix("period ") if high - low < 3 * NARROWEST_NAMED * (right - left) else name
-            ax.text(0.5 * (low + high), row, text, ha="center", va="center", fontsize=8, color="white", weight="bold")
+        room = (high - low) / (right - left) / LETTER - 1.0
+        text = next((text for text in (name, name.removeprefix("period ")) if len(text) <= room), "")
+        ax.text(0.5 * (low + high), row, text, ha="center", va="center", fontsize=8, color="white", weight="bold")
     ax.set_yticks(range(len(strips)), list(strips))
     ax.tick_params(axis="y", length=0)
     ax.spines["left"].set_visible(False)
@@ -196,6 +202,48 @@ def _strip_name(each: MotionRange | Range) -> str:
     if isinstance(each, Range):
         return f"period {each.period}" if each.period else each.motion
     return each.motion
+
+
+def range_lanes(
+    sources: Mapping[str, Iterable[MotionRange | Range]], ax: Axes | None = None, *, parameter: str | None = None
+) -> Axes:
+    """One lane for each motion with its ranges from several sources under one another; coexistence shows as overlap.
+
+    Parameters
+    ----------
+    sources : mapping of str to ranges
+        The first is drawn pale with a dark rim, the others in full colour.
+    ax : Axes, optional
+    parameter : str, optional
+        For the label of the axis, where no source is the article.
+
+    Returns
+    -------
+    Axes
+        With one bar for each range.
+    """
+    rows = [(k, each) for k, source in enumerate(sources.values()) for each in source]
+    motions = sorted({_strip_name(each) for _, each in rows}, key=motion_order)
+    ax = new_axes(ax, 1.0 + 0.3 * len(motions))
+    height = 0.84 / len(sources)
+    for k, each in rows:
+        parameter = getattr(each, "parameter", parameter)
+        motion = _strip_name(each)
+        pale = {"alpha": 0.35, "edgecolor": "black", "linewidth": 0.8} if k == 0 else {"linewidth": 0}
+        ax.barh(
+            motions.index(motion) + height * (k + 0.5) - 0.42, each.upper - each.lower, left=each.lower,
+            height=0.9 * height, color=motion_colour(motion), **pale,
+        )  # fmt: skip
+    ax.set_yticks(range(len(motions)), motions)
+    ax.tick_params(axis="y", length=0)
+    ax.set(ylim=(len(motions) - 0.5, -0.5), xlabel=LABELS.get(parameter or "", parameter))
+    ax.set_xlim(min(each.lower for _, each in rows), max(each.upper for _, each in rows))
+    for edge in range(1, len(motions)):
+        ax.axhline(edge - 0.5, color=BOUNDARY, linewidth=0.3)
+    looks = [Patch(facecolor="#BBBBBB", edgecolor="black", linewidth=0.8, alpha=0.5), Patch(facecolor="#777777")]
+    handles = looks[:1] + looks[1:] * (len(sources) - 1)
+    ax.legend(handles, list(sources), loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(sources))
+    return ax
 
 
 def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:

@@ -152,7 +152,7 @@ def spectrum(
     else:
         ax.plot(frequency, amplitude, color=colour, linewidth=0.6)
     ax.set_yscale("log")
-    ax.set(xlabel=LABELS["frequency"], ylabel="amplitude", xlim=(0, highest), ylim=(LOWEST_LINE, 10.0))
+    ax.set(xlabel=LABELS["frequency"], ylabel="amplitude", xlim=(0, highest + 0.1), ylim=(LOWEST_LINE, 10.0))
     ax.set_xticks(range(int(highest) + 1))
     return ax
 
@@ -220,7 +220,8 @@ def gallery(states: Mapping[str, SteadyState], *, parameter: str = "mesh_frequen
         for row, (name, state) in zip(grid, states.items(), strict=True):
             symbol = LABELS[parameter].split("$")[1]
             portrait(state, row, title=f"{name}  (${symbol} = {state.oscillator.parameter(parameter):.4g}$)")
-        for row in grid[:-1]:
-            for ax in row:
-                ax.set_xlabel("")
+        for ax, view in zip(grid[0][1:], VIEWS[1:], strict=True):
+            ax.set_title(view, weight="normal", loc="right")
+        for ax in grid[:-1].flat:
+            ax.set_xlabel("")
     return figure

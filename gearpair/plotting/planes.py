@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 from gearpair.impacts import ImpactState
 from gearpair.plotting.diagrams import shade_backlash
 from gearpair.plotting.style import motion_colour, new_axes
-from gearpair.ranges import motion_name
+from gearpair.ranges import IMPACT_NAMES, attractor_names, motion_name
 from gearpair.steady import SteadyState
 
 # The harsher the darker.
@@ -25,15 +25,6 @@ IMPACT_COLOURS: Mapping[str, str] = {
     ImpactState.SINGLE_COAST: "#9E9AC8",
     ImpactState.DOUBLE: "#54278F",
     "": "#FFFFFF",
-}
-IMPACT_NAMES: Mapping[str, str] = {
-    ImpactState.NEVER_IN_CONTACT: "never in contact",
-    ImpactState.NONE_DRIVE: "no impact, drive side",
-    ImpactState.NONE_COAST: "no impact, coast side",
-    ImpactState.SINGLE_DRIVE: "single-sided, drive side",
-    ImpactState.SINGLE_COAST: "single-sided, coast side",
-    ImpactState.DOUBLE: "double-sided",
-    "": "did not stay bounded",
 }
 
 
@@ -47,15 +38,6 @@ def attractor_colours(result: xr.Dataset) -> list[tuple[float, float, float]]:
         red, green, blue = (1.0 - shade * (1.0 - part) for part in to_rgb(motion_colour(name)))
         colours.append((red, green, blue))
     return colours
-
-
-def attractor_names(result: xr.Dataset) -> list[str]:
-    """What to call each attractor of `gearpair.basins`: its motion and its impact state."""
-    columns = (result[f"attractor_{name}"].values for name in ("status", "period", "impact_state"))
-    return [
-        f"{motion_name(str(status), int(period))}, {IMPACT_NAMES[str(state)]}"
-        for status, period, state in zip(*columns, strict=True)
-    ]
 
 
 def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:

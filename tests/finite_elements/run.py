@@ -58,7 +58,7 @@ def outline(tooth: ToothProfile, rolls: np.ndarray) -> tuple[np.ndarray, list[np
 
 
 def build_mesh(gear: SpurGear, angles: list[float], watched: int, rolls: np.ndarray, size: float) -> MeshTri2:
-    """Ring with teeth at the given angles; the first few have nodes at the loads and where their lines cross the centre."""
+    """Ring with teeth at the given angles; the first few have nodes at the loads and where they cross the centre."""
     tooth = ToothProfile(gear)
     m = gear.module_mm
     gmsh.initialize()

@@ -1,0 +1,106 @@
+"""Branches of periodic orbits and curves of their bifurcations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from gearpair.bifurcation_curves import BifurcationCurve
+from gearpair.branches import Branch
+from gearpair.plotting.style import INK, LABELS, motion_colour, new_axes
+
+MARKERS = {"fold": "^", "flip": "o", "grazing": "D"}
+DASHES: dict[str, Any] = {"fold": "-", "flip": "--", "grazing": ":"}
+
+
+def branches(
+    found: Iterable[Branch], ax: Axes | None = None, *, periods: Sequence[int] | None = None, markers: bool = True
+) -> Axes:
+    """X on the section along branches of orbits: solid where stable, dashed where unstable, bifurcations marked.
+
+    Parameters
+    ----------
+    found : iterable of Branch
+        Along one parameter.
+    ax : Axes, optional
+        For example that of a `bifurcation_diagram`, to draw over its points.
+    periods : sequence of int, optional
+        The periods to draw; all when not given.
+    markers : bool
+        Mark folds (triangles), flips (circles) and grazings (diamonds).
+
+    Returns
+    -------
+    Axes
+        With one line for each run of stable or of unstable orbits of each section point of each branch.
+    """
+    ax = new_axes(ax)
+    kinds = set()
+    for branch in found:
+        if periods is not None and branch.period not in periods:
+            continue
+        colour = motion_colour(f"period {branch.period}")
+        for stable in (False, True):
+            for k in range(branch.period):
+                shown = np.where(_runs(branch.stable, stable), branch.points[:, k, 0], np.nan)
+                style = {"linewidth": 1.4} if stable else {"linewidth": 0.6, "linestyle": (0, (3, 2)), "alpha": 0.8}
+                ax.plot(branch.values, shown, color=colour, **style)
+        for b in branch.bifurcations if markers else ():
+            kinds.add(b.kind)
+            ax.plot(
+                b.value, b.x, marker=MARKERS[b.kind], markersize=3.6, color=colour, markeredgecolor="white",
+                markeredgewidth=0.5, linestyle="", zorder=5,
+            )  # fmt: skip
+        ax.set_xlabel(LABELS[branch.parameter])
+    ax.set_ylabel(LABELS["section"])
+    handles = [Line2D([], [], marker=MARKERS[k], linestyle="", color="#555555", label=k) for k in MARKERS if k in kinds]
+    before = ax.get_legend()
+    if handles:
+        ax.legend(handles=handles, loc="upper right", ncols=3, handletextpad=0.1, columnspacing=0.8)
+    if before is not None:
+        ax.add_artist(before)
+    return ax
+
+
+def _runs(stable: np.ndarray, wanted: bool) -> np.ndarray:
+    """Where orbits are as wanted, widened by one so that solid and dashed runs meet."""
+    inside = stable == wanted
+    if wanted:
+        return inside
+    widened = inside.copy()
+    widened[1:] |= inside[:-1]
+    widened[:-1] |= inside[1:]
+    return widened
+
+
+def bifurcation_curves(curves: Iterable[BifurcationCurve], ax: Axes | None = None) -> Axes:
+    """Curves of folds (solid), flips (dashed) and grazings (dotted) in the plane of two parameters.
+
+    Parameters
+    ----------
+    curves : iterable of BifurcationCurve
+        In the same two parameters.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+        With one line for each curve, coloured by the orbit's period.
+    """
+    ax = new_axes(ax)
+    seen: dict[tuple[str, int], None] = {}
+    for curve in curves:
+        colour = motion_colour(f"period {curve.period}")
+        ax.plot(*curve.values.T, color=colour, linestyle=DASHES[curve.kind])
+        ax.set(xlabel=LABELS[curve.parameters[0]], ylabel=LABELS[curve.parameters[1]])
+        seen[curve.kind, curve.period] = None
+    kinds = [kind for kind in DASHES if any(kind == k for k, _ in seen)]
+    periods = sorted({period for _, period in seen})
+    handles = [Line2D([], [], color=INK, linestyle=DASHES[kind], label=kind) for kind in kinds]
+    handles += [Line2D([], [], color=motion_colour(f"period {p}"), label=f"period {p}") for p in periods]
+    ax.legend(handles=handles, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(handles))
+    return ax

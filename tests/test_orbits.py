@@ -1,0 +1,127 @@
+"""Periodic orbits and exponents against finite differences, identities and the linear theory."""
+
+import numpy as np
+import pytest
+
+import gearpair as gp
+from gearpair._flow.cycle import map_at
+from gearpair.orbits import multipliers_of
+
+BASELINE = gp.Oscillator()
+SWAPPED = gp.Oscillator(stiffness=gp.StiffnessWave.rectangular(reading="swapped"))
+
+
+@pytest.mark.parametrize("frequency", [0.7, 0.95, 1.219, 1.6])
+@pytest.mark.parametrize("n", [1, 3])
+def test_monodromy_is_the_derivative_of_the_map(frequency, n):
+    """Central differences of the stroboscopic map, away from grazing, to their own O(h^2) error."""
+    osc = BASELINE.replace(mesh_frequency=frequency)
+    x, v = gp.stroboscopic_map(osc, 1.0, 0.0, 300)
+    exact = np.empty((2, 2))
+    map_at(osc._flow_parameters, float(x), float(v), n, exact)
+    h = 1e-6
+    right = np.array(gp.stroboscopic_map(osc, [x + h, x], [v, v + h], n))
+    left = np.array(gp.stroboscopic_map(osc, [x - h, x], [v, v - h], n))
+    assert np.allclose((right - left) / (2 * h), exact, rtol=0, atol=1e-7 * np.abs(exact).max())
+
+
+@pytest.mark.parametrize("osc", [BASELINE, SWAPPED.replace(mesh_frequency=1.3), BASELINE.replace(damping_ratio=0.0)])
+def test_orbits_are_closed_and_contract_as_they_must(osc):
+    """map^period(point) = point; the multipliers' product is exp(-2 zeta period T); the period is minimal."""
+    orbits = gp.find_orbits(osc, 4, n_starts=150)
+    assert {orbit.period for orbit in orbits} >= {1, 2, 3}
+    for orbit in orbits:
+        assert orbit.converged and orbit.residual < 1e-11
+        product = np.exp(-2.0 * osc.damping_ratio * orbit.period * osc.period)
+        # The determinant cancels among entries of the size of the larger multiplier.
+        assert abs(np.prod(orbit.multipliers) - product) < 1e-12 * max(1.0, abs(orbit.multipliers[0])) ** 2
+        ahead = np.array(gp.stroboscopic_map(osc, orbit.points[:, 0], orbit.points[:, 1])).T
+        assert np.allclose(ahead, np.roll(orbit.points, -1, axis=0), rtol=0, atol=1e-10)
+        separation = np.abs(orbit.points[1:] - orbit.points[0]).max(axis=1)
+        assert np.all(separation > 1e-6)
+
+
+def test_orbits_are_found_once():
+    """No two orbits of a search share a section point."""
+    orbits = gp.find_orbits(BASELINE, 3, n_starts=200)
+    firsts = np.concatenate([orbit.points for orbit in orbits])
+    apart = np.abs(firsts[:, None] - firsts[None]).max(axis=2) + np.eye(len(firsts))
+    assert apart.min() > 1e-7
+
+
+def test_extremes_and_contacts_of_an_orbit_are_those_of_its_trajectory():
+    """Densely sampled X stays within the extremes and comes as near to them as its sampling allows."""
+    for orbit in gp.find_orbits(BASELINE, 3, n_starts=100):
+        motion = gp.trajectory(BASELINE, *orbit.points[0], orbit.period, samples_per_period=4000)
+        assert orbit.x_min <= motion.x.min() + 1e-9 and motion.x.max() - 1e-9 <= orbit.x_max
+        # Between samples h apart an extremum is missed by h^2 max|X''| / 8.
+        step = BASELINE.period / 4000
+        assert motion.x.min() - orbit.x_min < step**2 and orbit.x_max - motion.x.max() < step**2
+        begun = motion.impacts.side[motion.impacts.contact]
+        assert orbit.contacts == (np.sum(begun == 1), np.sum(begun == -1))
+
+
+def test_always_in_contact_the_multipliers_are_floquets():
+    """With a large mean force the orbit never leaves the flank: its trace is that of the linear equation."""
+    osc = gp.Oscillator(mean_force=5.0, mesh_frequency=1.3)
+    orbit = gp.periodic_orbit(osc, 6.0, 0.0, 1)
+    assert orbit.converged and orbit.impact_state == "none_drive" and orbit.contacts == (0, 0)
+    assert np.trace(orbit.monodromy) == pytest.approx(floquet_trace(osc), abs=1e-12)
+
+
+def floquet_trace(osc):
+    """Trace of the always-in-contact monodromy from the textbook's matrix exponentials."""
+    from scipy.linalg import expm
+
+    total = np.eye(2)
+    for length, level in zip(osc.stiffness.durations, osc.stiffness.levels, strict=True):
+        total = expm(np.array([[0.0, 1.0], [-level, -2 * osc.damping_ratio]]) * length * osc.period) @ total
+    return np.trace(total)
+
+
+def test_multipliers_of_known_matrices():
+    """Eigenvalues of a rotation, a saddle and a near-singular matrix, the largest modulus first."""
+    turn = np.array([[0.0, -0.5], [0.5, 0.0]])
+    saddle = np.array([[-3.0, 1.0], [0.0, 0.2]])
+    assert np.allclose(multipliers_of(turn), [0.5j, -0.5j])
+    assert np.allclose(multipliers_of(saddle), [-3.0, 0.2])
+    assert np.allclose(multipliers_of(np.array([turn, saddle])).shape, (2, 2))
+
+
+def test_a_search_that_fails_says_so():
+    """From afar at an unstable frequency Newton's method ends without an orbit, and a remedy is named."""
+    orbit = gp.periodic_orbit(BASELINE.replace(mesh_frequency=1.219), 300.0, 100.0, 7)
+    assert not orbit.converged and "find_orbits" in orbit.status.remedy
+
+
+@pytest.mark.parametrize("osc", [BASELINE.replace(mesh_frequency=1.219), BASELINE.replace(mesh_frequency=1.5)])
+def test_exponents_sum_to_minus_twice_the_damping(osc):
+    """det M = exp(-2 zeta T) along any motion, chaotic ones included."""
+    pair = gp.lyapunov_exponents(osc, 1.0, 0.0, 3000)
+    assert pair[0] > 0.05 > pair[1]
+    assert pair.sum() == pytest.approx(-2 * osc.damping_ratio, abs=1e-12)
+
+
+def test_exponents_of_a_periodic_motion_are_its_multipliers_logarithms():
+    """lambda = log|mu| / (period T) once the motion is on the orbit."""
+    state = gp.steady_state(BASELINE)
+    assert state.status == "periodic" and state.period == 2
+    pair = gp.lyapunov_exponents(BASELINE, *state.points[0], 2000)
+    expected = np.log(np.abs(state.multipliers)) / (2 * BASELINE.period)
+    assert np.allclose(pair, expected, rtol=0, atol=1e-3)
+    assert np.allclose(state.lyapunov_exponents, expected, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("call", "named"),
+    [
+        (lambda: gp.periodic_orbit(BASELINE, 0.0, 0.0, 0), "period"),
+        (lambda: gp.periodic_orbit(BASELINE, np.nan, 0.0, 1), "x"),
+        (lambda: gp.periodic_orbit(BASELINE, [0.0, 1.0], 0.0, 1), "x and v"),
+        (lambda: gp.find_orbits(BASELINE, 1, n_starts=0), "n_starts"),
+        (lambda: gp.lyapunov_exponents(BASELINE, 0.0, 0.0, -1), "n_periods"),
+    ],
+)
+def test_bad_input_is_named(call, named):
+    with pytest.raises(ValueError, match=f"{named} must"):
+        call()
