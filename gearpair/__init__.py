@@ -8,6 +8,7 @@ from gearpair.batches import Status
 from gearpair.bifurcation_curves import BifurcationCurve, continue_bifurcation
 from gearpair.branch_search import coexistence, doubling_cascade, find_branches
 from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit
+from gearpair.chaos_test import zero_one_test
 from gearpair.comparison import compare_attractors, compare_boundaries, compare_ranges
 from gearpair.drive import GearDrive
 from gearpair.exponents import lyapunov_exponents
@@ -98,4 +99,5 @@ __all__ = [
     "stroboscopic_map",
     "sweep",
     "trajectory",
+    "zero_one_test",
 ]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from tqdm import tqdm
 
 from gearpair._checks import check_count
-from gearpair._flow.settle import NOT_RUN, Lanes, Settled, settle_batch, settle_chain
+from gearpair._flow.settle import NOT_RUN, Lanes, Settled, settle_batch, settle_chain, settle_chains
 from gearpair.oscillator import Oscillator
 
 BLOCK = 64  # lanes between two moves of the progress bar, and between two chances to stop
@@ -129,6 +129,31 @@ def settle_lanes(
         except KeyboardInterrupt:
             done = int(np.sum(out.status != NOT_RUN))
             warnings.warn(f"stopped after {done} of {n} motions; the rest has status 'not_run'", stacklevel=3)
+    return out
+
+
+def settle_side_by_side(
+    oscillators: Sequence[Oscillator], starts: NDArray[np.float64], settings: SettleSettings, length: int
+) -> Settled:
+    """Many carried sweeps in parallel over the cores.
+
+    Parameters
+    ----------
+    oscillators : sequence of Oscillator
+        One sweep after the other, all with equally many stiffness levels.
+    starts : ndarray of float, shape (n, 2)
+        The first of each sweep is its start.
+    settings : SettleSettings
+    length : int
+        Lanes in each sweep; a divisor of n. With 1, nothing is carried.
+
+    Returns
+    -------
+    Settled
+        Arrays with one row a lane.
+    """
+    out = _room(len(oscillators), settings)
+    settle_chains(lanes_of(oscillators, starts, settings), length, settings.max_period, settings.n_exponent, out)
     return out
 
 

@@ -196,3 +196,12 @@ def settle_chain(lanes, first, last, max_period, n_exponent, out):
         if i > 0 and out.status[i - 1] < GONE:
             lanes.starts[i] = out.final[i - 1]
         settle_lane(lanes, i, max_period, n_exponent, out)
+
+
+@parallel_kernel
+def settle_chains(lanes, length, max_period, n_exponent, out):
+    """Chains of `length` lanes each, one beside the other in parallel; within one as in `settle_chain`."""
+    for chain in prange(lanes.starts.shape[0] // length):
+        first = chain * length
+        settle_lane(lanes, first, max_period, n_exponent, out)
+        settle_chain(lanes, first + 1, first + length, max_period, n_exponent, out)
