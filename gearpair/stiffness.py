@@ -163,6 +163,39 @@ class StiffnessWave:
         return np.concatenate([[self.mean], steps @ np.asarray(self.levels)])
 
 
+    def smoothed(self, n_harmonics: int, n_levels: int = 64) -> StiffnessWave:
+        """The wave cut off after some harmonics, as a fine staircase.
+
+        Parameters
+        ----------
+        n_harmonics : int
+            Harmonics kept; 0 leaves the mean, 1 a sinusoid.
+        n_levels : int
+            Steps of the staircase, each at the middle value of its interval.
+
+        Returns
+        -------
+        StiffnessWave
+
+        Raises
+        ------
+        ValueError
+            Where the smoothed wave is not positive.
+
+        Examples
+        --------
+        >>> sinusoid = StiffnessWave.rectangular().smoothed(1)
+        >>> round(sinusoid.mean, 5), round(max(sinusoid.levels) - min(sinusoid.levels), 2)
+        (0.9464, 0.57)
+        """
+        check_number("n_levels", n_levels, at_least=1)
+        c = self.harmonics(n_harmonics)
+        edges = np.arange(n_levels) / n_levels
+        turns = np.exp(2j * np.pi * np.outer(edges + 0.5 / n_levels, np.arange(1, len(c))))
+        levels = c[0].real + 2.0 * (turns @ c[1:]).real
+        return StiffnessWave(tuple(edges.tolist()), tuple(levels.tolist()))
+
+
 def _numbers(name: str, values: Sequence[float]) -> tuple[float, ...]:
     array = np.asarray(values)
     if array.ndim != 1:
