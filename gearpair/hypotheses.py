@@ -277,7 +277,7 @@ STARTS = tuple((x, v) for x in (-1.0, 0.0, 1.0, 2.0) for v in (-0.6, 0.0, 0.6))
 
 
 @dataclass(frozen=True)
-class Coexistence:
+class Reached:
     """The motions that a hypothesis has at each value of a parameter, whatever the protocol: reached from any start.
 
     Attributes
@@ -317,14 +317,14 @@ class Coexistence:
         return float(np.mean(self.published_present[inside]))
 
 
-def coexistence(
+def reached(
     hypotheses: Sequence[Hypothesis],
     parameter: str,
     n_values: int = 40,
     *,
     starts: Sequence[tuple[float, float]] = STARTS,
     n_discarded: int | None = None,
-) -> list[Coexistence]:
+) -> list[Reached]:
     """The motions that each hypothesis has at the middles of `n_values` equal parts of the published axis.
 
     Parameters
@@ -338,7 +338,7 @@ def coexistence(
 
     Returns
     -------
-    list of Coexistence
+    list of Reached
 
     Notes
     -----
@@ -347,7 +347,7 @@ def coexistence(
 
     Examples
     --------
-    >>> coexistence([SWAPPED], "damping_ratio", 5)[0].within("D5")
+    >>> reached([SWAPPED], "damping_ratio", 5)[0].within("D5")
     1.0
     """
     edges = axis(parameter, n_values + 1)
@@ -357,7 +357,7 @@ def coexistence(
     out = settle_side_by_side(oscillators, np.tile(starts, (len(oscillators) // len(starts), 1)), settings, 1)
     found = out.period.reshape(len(hypotheses), n_values, len(starts))
     return [
-        Coexistence(h, parameter, values, tuple(frozenset(label(int(m), parameter) for m in row) for row in found[i]))
+        Reached(h, parameter, values, tuple(frozenset(label(int(m), parameter) for m in row) for row in found[i]))
         for i, h in enumerate(hypotheses)
     ]
 
