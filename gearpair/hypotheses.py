@@ -254,23 +254,23 @@ def trials(hypotheses: Sequence[Hypothesis], protocols: Sequence[Protocol], n_va
 
 @dataclass(frozen=True)
 class Ranked:
-    """One hypothesis among others: the best of its trials, and the mean of their totals."""
+    """One hypothesis among others: the mean of its trials' totals, and the best trial."""
 
     hypothesis: Hypothesis
-    best: Trial
     mean: float
+    best: Trial
 
 
 def ranking(done: Iterable[Trial]) -> list[Ranked]:
-    """Hypotheses by the best of their trials, the best first."""
+    """Hypotheses by the mean over their trials, the highest first: one lucky start shall not decide."""
     grouped: dict[Hypothesis, list[Trial]] = {}
     for trial in done:
         grouped.setdefault(trial.hypothesis, []).append(trial)
     ranked = [
-        Ranked(h, max(each, key=lambda trial: trial.total), float(np.mean([t.total for t in each])))
+        Ranked(h, float(np.mean([trial.total for trial in each])), max(each, key=lambda trial: trial.total))
         for h, each in grouped.items()
     ]
-    return sorted(ranked, key=lambda entry: -entry.best.total)
+    return sorted(ranked, key=lambda entry: -entry.mean)
 
 
 STARTS = tuple((x, v) for x in (-1.0, 0.0, 1.0, 2.0) for v in (-0.6, 0.0, 0.6))
