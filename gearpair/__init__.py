@@ -9,7 +9,7 @@ from gearpair.bifurcation_curves import BifurcationCurve, continue_bifurcation
 from gearpair.branch_search import coexistence, doubling_cascade, find_branches
 from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit
 from gearpair.chaos_test import zero_one_test
-from gearpair.comparison import compare_boundaries, compare_ranges
+from gearpair.comparison import compare_attractors, compare_boundaries, compare_ranges
 from gearpair.drive import GearDrive
 from gearpair.exponents import lyapunov_exponents
 from gearpair.impacts import ImpactState, impact_state
@@ -29,6 +29,8 @@ from gearpair.ranges import (
     motion_name,
     motion_ranges,
     motion_shares,
+    motion_table,
+    range_of,
     representatives,
 )
 from gearpair.spectra import Spectrum, spectrum
@@ -39,12 +41,6 @@ from gearpair.sweeps import sweep
 from gearpair.tables import Table
 
 __all__ = [
-    "zero_one_test",
-    "coexistence",
-    "doubling_cascade",
-    "apparent_period",
-    "runge_kutta_section",
-    "runge_kutta_sweep",
     "Bifurcation",
     "BifurcationCurve",
     "Branch",
@@ -64,13 +60,17 @@ __all__ = [
     "StiffnessWave",
     "Table",
     "Trajectory",
+    "apparent_period",
     "attractor_names",
     "basins",
+    "coexistence",
+    "compare_attractors",
     "compare_boundaries",
     "compare_ranges",
     "continue_bifurcation",
     "continue_orbit",
     "doubled_orbit",
+    "doubling_cascade",
     "find_branches",
     "find_orbits",
     "follow",
@@ -82,16 +82,18 @@ __all__ = [
     "motion_name",
     "motion_ranges",
     "motion_shares",
+    "motion_table",
     "parameter_map",
-    "published",
-    "runge_kutta_section",
-    "runge_kutta_sweep",
     "periodic_orbit",
     "published",
+    "range_of",
     "representatives",
+    "runge_kutta_section",
+    "runge_kutta_sweep",
     "spectrum",
     "steady_state",
     "stroboscopic_map",
     "sweep",
     "trajectory",
+    "zero_one_test",
 ]

@@ -10,6 +10,7 @@ from gearpair.plotting.diagrams import (
     bifurcation_diagram,
     exponents,
     extremes,
+    mark_boundaries,
     motion_shares,
     range_lanes,
     range_strips,
@@ -17,12 +18,13 @@ from gearpair.plotting.diagrams import (
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
 from gearpair.plotting.reproduction import coverage_by_phase, reached_motions, score_ranking
-from gearpair.plotting.style import MOTION_COLOURS, STYLE, motion_colour
+from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.waves import harmonics, stiffness_wave
 
 __all__ = [
     "MOTION_COLOURS",
     "STYLE",
+    "add_motion_legend",
     "attractor_points",
     "basins",
     "bifurcation_curves",
@@ -35,6 +37,7 @@ __all__ = [
     "gallery",
     "harmonics",
     "impact_states",
+    "mark_boundaries",
     "motion_colour",
     "motion_shares",
     "phase_portrait",
