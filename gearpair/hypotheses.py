@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair import published
 from gearpair._checks import check_choice, check_count, check_number
-from gearpair.batches import SettleSettings, settle_side_by_side
+from gearpair.batches import SettleSettings, settle_lanes
 from gearpair.oscillator import Oscillator
 from gearpair.reproduction import Score, label, published_labels, score
 from gearpair.stiffness import StiffnessWave
@@ -219,7 +219,7 @@ def periods(
     settings = SettleSettings(
         n_transient=protocol.n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD
     )
-    out = settle_side_by_side(oscillators, starts, settings, 1 if protocol.seeding == "restart" else n_values)
+    out = settle_lanes(oscillators, starts, settings, chain=1 if protocol.seeding == "restart" else n_values)
     return out.period.reshape(len(hypotheses), n_values)[:, order]
 
 
@@ -254,30 +254,30 @@ def trials(hypotheses: Sequence[Hypothesis], protocols: Sequence[Protocol], n_va
 
 @dataclass(frozen=True)
 class Ranked:
-    """One hypothesis among others: the best of its trials, and the mean of their totals."""
+    """One hypothesis among others: the mean of its trials' totals, and the best trial."""
 
     hypothesis: Hypothesis
-    best: Trial
     mean: float
+    best: Trial
 
 
 def ranking(done: Iterable[Trial]) -> list[Ranked]:
-    """Hypotheses by the best of their trials, the best first."""
+    """Hypotheses by the mean over their trials, the highest first: one lucky start shall not decide."""
     grouped: dict[Hypothesis, list[Trial]] = {}
     for trial in done:
         grouped.setdefault(trial.hypothesis, []).append(trial)
     ranked = [
-        Ranked(h, max(each, key=lambda trial: trial.total), float(np.mean([t.total for t in each])))
+        Ranked(h, float(np.mean([trial.total for trial in each])), max(each, key=lambda trial: trial.total))
         for h, each in grouped.items()
     ]
-    return sorted(ranked, key=lambda entry: -entry.best.total)
+    return sorted(ranked, key=lambda entry: -entry.mean)
 
 
 STARTS = tuple((x, v) for x in (-1.0, 0.0, 1.0, 2.0) for v in (-0.6, 0.0, 0.6))
 
 
 @dataclass(frozen=True)
-class Coexistence:
+class Reached:
     """The motions that a hypothesis has at each value of a parameter, whatever the protocol: reached from any start.
 
     Attributes
@@ -317,14 +317,14 @@ class Coexistence:
         return float(np.mean(self.published_present[inside]))
 
 
-def coexistence(
+def reached(
     hypotheses: Sequence[Hypothesis],
     parameter: str,
     n_values: int = 40,
     *,
     starts: Sequence[tuple[float, float]] = STARTS,
     n_discarded: int | None = None,
-) -> list[Coexistence]:
+) -> list[Reached]:
     """The motions that each hypothesis has at the middles of `n_values` equal parts of the published axis.
 
     Parameters
@@ -338,7 +338,7 @@ def coexistence(
 
     Returns
     -------
-    list of Coexistence
+    list of Reached
 
     Notes
     -----
@@ -347,17 +347,17 @@ def coexistence(
 
     Examples
     --------
-    >>> coexistence([SWAPPED], "damping_ratio", 5)[0].within("D5")
+    >>> reached([SWAPPED], "damping_ratio", 5)[0].within("D5")
     1.0
     """
     edges = axis(parameter, n_values + 1)
     values = 0.5 * (edges[1:] + edges[:-1])
     oscillators = [osc for h in hypotheses for osc in h.along(parameter, values) for _ in starts]
     settings = SettleSettings(n_transient=n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD)
-    out = settle_side_by_side(oscillators, np.tile(starts, (len(oscillators) // len(starts), 1)), settings, 1)
+    out = settle_lanes(oscillators, np.tile(starts, (len(oscillators) // len(starts), 1)), settings)
     found = out.period.reshape(len(hypotheses), n_values, len(starts))
     return [
-        Coexistence(h, parameter, values, tuple(frozenset(label(int(m), parameter) for m in row) for row in found[i]))
+        Reached(h, parameter, values, tuple(frozenset(label(int(m), parameter) for m in row) for row in found[i]))
         for i, h in enumerate(hypotheses)
     ]
 

@@ -76,9 +76,9 @@ def test_trials_are_ranked_and_one_per_pair():
         assert entry.mean == pytest.approx(np.mean(own))
 
 
-def test_coexistence_finds_both_period_one_and_period_three():
+def test_many_starts_find_both_period_one_and_period_three():
     """At zeta = 0.0075 the swapped reading has a period-1 and a period-3 motion; zeta = 0.02 has period 1 alone."""
-    swapped, printed = hy.coexistence([hy.SWAPPED, hy.PRINTED], "damping_ratio", 5)
+    swapped, printed = hy.reached([hy.SWAPPED, hy.PRINTED], "damping_ratio", 5)
     assert {"1", "3"} <= swapped.motions[1]
     assert swapped.within("D5") == 1.0
     assert swapped.coverage > printed.coverage

@@ -17,6 +17,7 @@ from gearpair.plotting.diagrams import (
 )
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
+from gearpair.plotting.reproduction import coverage_by_phase, reached_motions, score_ranking
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.waves import harmonics, stiffness_wave
 
@@ -29,6 +30,7 @@ __all__ = [
     "bifurcation_curves",
     "bifurcation_diagram",
     "branches",
+    "coverage_by_phase",
     "exponents",
     "extremes",
     "finite_exponents",
@@ -43,6 +45,8 @@ __all__ = [
     "portrait",
     "range_lanes",
     "range_strips",
+    "reached_motions",
+    "score_ranking",
     "spectrum",
     "stiffness_wave",
     "time_history",
