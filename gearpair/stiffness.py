@@ -180,7 +180,7 @@ class StiffnessWave:
         Raises
         ------
         ValueError
-            For too few levels, or where the series is not positive (a harmonic taken alone can be larger than the mean).
+            For too few levels, or where the series is not positive (one harmonic alone can exceed the mean).
 
         Examples
         --------

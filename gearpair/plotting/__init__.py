@@ -17,6 +17,16 @@ from gearpair.plotting.diagrams import (
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, motion_colour
+from gearpair.plotting.teeth import (
+    compliance_stack,
+    contact_ratio_cloud,
+    finite_element_check,
+    load_shares,
+    mesh_curves,
+    pair_stiffness,
+    stiffness_trends,
+    tooth_outlines,
+)
 from gearpair.plotting.waves import harmonics, stiffness_wave
 
 __all__ = [
@@ -27,20 +37,28 @@ __all__ = [
     "bifurcation_curves",
     "bifurcation_diagram",
     "branches",
+    "compliance_stack",
+    "contact_ratio_cloud",
     "exponents",
     "extremes",
+    "finite_element_check",
     "finite_exponents",
     "gallery",
     "harmonics",
     "impact_states",
+    "load_shares",
+    "mesh_curves",
     "motion_colour",
     "motion_shares",
+    "pair_stiffness",
     "phase_portrait",
     "poincare_section",
     "portrait",
     "range_lanes",
     "range_strips",
     "spectrum",
+    "stiffness_trends",
     "stiffness_wave",
     "time_history",
+    "tooth_outlines",
 ]
