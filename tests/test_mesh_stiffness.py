@@ -260,7 +260,7 @@ def test_truncated_wave_keeps_its_first_harmonics_and_no_others() -> None:
     for n_levels, n in ((40, 1), (40, 2), (400, 6)):
         kept = wave.truncated(n, n_levels)
         m = np.arange(1, 7)
-        # the staircase holds each harmonic up to the factor sinc(m / n_levels)^2, and nothing between n and n_levels - n
+        # each harmonic kept up to the factor sinc(m / n_levels)^2, and none from n + 1 to n_levels - n - 1
         expected = np.where(m <= n, wave.harmonics(6)[1:] * np.sinc(m / n_levels) ** 2, 0.0)
         assert kept.mean == pytest.approx(wave.mean, rel=1e-14)
         assert kept.harmonics(6)[1:] == pytest.approx(expected, abs=1e-14)

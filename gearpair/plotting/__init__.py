@@ -24,6 +24,7 @@ from gearpair.plotting.teeth import (
     load_shares,
     mesh_curves,
     pair_stiffness,
+    per_width,
     stiffness_trends,
     tooth_outlines,
 )
@@ -51,6 +52,7 @@ __all__ = [
     "motion_colour",
     "motion_shares",
     "pair_stiffness",
+    "per_width",
     "phase_portrait",
     "poincare_section",
     "portrait",
