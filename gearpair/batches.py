@@ -94,10 +94,10 @@ def settle_lanes(
     starts: NDArray[np.float64],
     settings: SettleSettings,
     *,
-    carry: bool,
+    chain: int = 1,
     progress: bool = False,
 ) -> Settled:
-    """Follow each oscillator from its start until it settles.
+    """Follow each oscillator from its start until it settles, in parallel over the cores.
 
     Parameters
     ----------
@@ -106,9 +106,9 @@ def settle_lanes(
     starts : ndarray of float, shape (n, 2)
         X and X' of each lane.
     settings : SettleSettings
-    carry : bool
-        Start each lane where the one before it ended (one after the other) instead of from its own
-        start (in parallel over the cores).
+    chain : int
+        Lanes in a chain, a divisor of n: each but the first of its chain starts where the one before it ended. 1
+        starts every lane from its own start, n makes one carried sweep.
     progress : bool
         Show a progress bar on stderr.
 
@@ -119,17 +119,16 @@ def settle_lanes(
     """
     n = len(oscillators)
     out = _room(n, settings)
-    lanes = lanes_of(oscillators, starts, settings)
-    arguments = (lanes, carry, settings.max_period, settings.n_exponent, out)
+    arguments = (lanes_of(oscillators, starts, settings), chain, settings.max_period, settings.n_exponent, out)
     with tqdm(total=n, unit="motion", disable=not progress) as bar:
         try:
-            if carry:
+            if chain == n:
                 for first in range(0, n, BLOCK):
                     last = min(first + BLOCK, n)
                     settle_rows(first, last, *arguments)
                     bar.update(last - first)
             else:
-                on_all_cores(settle_rows, arguments, n, BLOCK, bar.update)
+                on_all_cores(settle_rows, arguments, n, BLOCK if chain == 1 else chain, bar.update)
         except KeyboardInterrupt:
             done = int(np.sum(out.status != NOT_RUN))
             warnings.warn(f"stopped after {done} of {n} motions; the rest has status 'not_run'", stacklevel=3)

@@ -21,7 +21,7 @@ Kind = Literal["fold", "flip", "grazing"]
 FIRST_STEP, SMALLEST_STEP, LARGEST_STEP = 2e-3, 1e-9, 2e-2  # in scaled arc length
 MERGED = 0.1  # where two points pass each other by less than this share of how far they moved, they have met
 LARGEST_X = 20.0  # where branches that run to infinity, by contact's parametric resonance, are left; see largest_x
-TOUCHING = 1e-9  # a located grazing's distance from the boundary is below this
+TOUCHING = 1e-9  # two points, or a turning point and a boundary, that lie closer than this touch
 
 
 @dataclass(frozen=True)
@@ -240,10 +240,11 @@ def _merging(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> Step[Cycl
     There the doubled branch and the shorter orbit's own cross, so the flip's own equations are solved.
     """
     before, after = a.data.half_gap, b.data.half_gap
-    if before @ after >= 0.0:
+    collapsed = np.linalg.norm(after) < TOUCHING  # the step has landed on the shorter orbit's own branch
+    if before @ after >= 0.0 and not collapsed:
         return None
     share = before @ (before - after) / np.sum((before - after) ** 2)
-    if np.linalg.norm(before + share * (after - before)) > MERGED * np.linalg.norm(before - after):
+    if not collapsed and np.linalg.norm(before + share * (after - before)) > MERGED * np.linalg.norm(before - after):
         return None
     from scipy.optimize import root  # here, so that importing gearpair stays quick
 
@@ -255,11 +256,12 @@ def _merging(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> Step[Cycl
         found = half.equations(u)
         return np.append(found[0], half.cycle(u).flip_test) if found is not None else np.full(3, np.inf)
 
-    middle = (1.0 - share) * a.u + share * b.u
-    middle[:2] += 0.5 * ((1.0 - share) * before + share * after)
+    middle = a.u.copy() if collapsed else (1.0 - share) * a.u + share * b.u
+    middle[:2] += 0.5 * before if collapsed else 0.5 * ((1.0 - share) * before + share * after)
     solution = root(flip, middle, tol=1e-13)
-    if np.max(np.abs(solution.fun)) > 1e-9 or np.linalg.norm(solution.x - middle) > np.linalg.norm(b.u - a.u):
-        return None
+    lost = np.max(np.abs(solution.fun)) > 1e-9 or np.linalg.norm(solution.x - middle) > np.linalg.norm(b.u - a.u)
+    if lost:
+        return a if collapsed else None
     return Step(solution.x, a.tangent, int(solution.nfev), problem.cycle(solution.x))
 
 

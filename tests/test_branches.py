@@ -115,17 +115,28 @@ def test_the_period_doubling_sequence_has_feigenbaums_ratio():
     """Period 3, 6, 12, ... below Omega = 0.917: the gaps shrink by 4.669 (Feigenbaum, 1978), to 1 % at the fourth."""
     osc = BASELINE.replace(mesh_frequency=0.919)
     orbit = next(o for o in gp.find_orbits(osc, 3, n_starts=200) if o.period == 3 and o.stable)
-    flips, width = [], 0.02
-    for _ in range(5):
-        value = orbit.oscillator.mesh_frequency
-        branch = gp.continue_orbit(orbit, "mesh_frequency", value - width, value + 0.1 * width)
-        flip = min((b for b in branch.bifurcations if b.kind == "flip"), key=lambda b: abs(b.value - value))
-        flips.append(flip.value)
-        width = 0.5 * abs(flips[-1] - flips[-2]) if len(flips) > 1 else 0.005
-        orbit = gp.doubled_orbit(flip)
-    gaps = -np.diff(flips)
+    branch = gp.continue_orbit(orbit, "mesh_frequency", 0.91, 0.9195)
+    first = next(b for b in branch.bifurcations if b.kind == "flip")
+    flips = gp.doubling_cascade(first, 5)
+    assert [flip.period for flip in flips] == [3, 6, 12, 24, 48]
+    gaps = -np.diff([flip.value for flip in flips])
     assert np.all(gaps > 0)
     assert gaps[2] / gaps[3] == pytest.approx(4.669, rel=0.01)
+
+
+def test_coexisting_orbits_are_those_that_starts_settle_on():
+    """At frequencies between 0.7 and 1.05 the stable branches up to period 2 are the attractors of a grid of starts."""
+    branches = gp.find_branches(BASELINE, "mesh_frequency", 0.7, 1.05, max_period=2, n_values=5)
+    ranges = gp.coexistence(branches, 0.7, 1.05, shortest=1e-4)
+    for omega in (0.72, 0.75, 1.045):
+        grid = gp.basins(BASELINE.replace(mesh_frequency=omega), np.linspace(-3, 3, 25), np.linspace(-2, 2, 25))
+        reached = {
+            f"period {period} {state}"
+            for period, state in zip(grid.attractor_period.values, grid.attractor_impact_state.values, strict=True)
+            if 0 < period <= 2
+        }
+        names = next(names for low, high, names in ranges if low <= omega <= high)
+        assert reached == set(names)
 
 
 def test_the_search_finds_the_coexisting_branches():

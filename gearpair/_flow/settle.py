@@ -167,15 +167,15 @@ def smallest_point(cells, x, v, period, series):
 
 
 @kernel
-def settle_rows(first, last, lanes, carry, max_period, n_exponent, out):
-    """`settle` for lanes `first` to `last`.
+def settle_rows(first, last, lanes, chain, max_period, n_exponent, out):
+    """`settle` for lanes `first` to `last`, which form chains of `chain` lanes each (1: every lane for itself).
 
-    With `carry` each lane starts where the one before it ended, if that motion stayed bounded.
+    In a chain each lane but the first starts where the one before it ended, if that motion stayed bounded.
     """
     series = np.empty(TERMS)
     for i in range(first, last):
         x, v = lanes.starts[i, 0], lanes.starts[i, 1]
-        if carry and i > 0 and out.status[i - 1] < GONE:
+        if i % chain != 0 and out.status[i - 1] < GONE:
             x, v = out.final[i - 1, 0], out.final[i - 1, 1]
         s = lanes.scalars[i]
         cells = build_cells(Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i]))
