@@ -162,7 +162,6 @@ class StiffnessWave:
         steps = (turns[:, :-1] - turns[:, 1:]) / (2j * np.pi * m)
         return np.concatenate([[self.mean], steps @ np.asarray(self.levels)])
 
-
     def smoothed(self, n_harmonics: int, n_levels: int = 64) -> StiffnessWave:
         """The wave cut off after some harmonics, as a fine staircase.
 
