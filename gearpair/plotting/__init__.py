@@ -19,6 +19,17 @@ from gearpair.plotting.motions import gallery, phase_portrait, poincare_section,
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
 from gearpair.plotting.reproduction import coverage_by_phase, reached_motions, score_ranking
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
+from gearpair.plotting.teeth import (
+    compliance_stack,
+    contact_ratio_cloud,
+    finite_element_check,
+    load_shares,
+    mesh_curves,
+    pair_stiffness,
+    per_width,
+    stiffness_trends,
+    tooth_outlines,
+)
 from gearpair.plotting.waves import harmonics, stiffness_wave
 
 __all__ = [
@@ -30,16 +41,23 @@ __all__ = [
     "bifurcation_curves",
     "bifurcation_diagram",
     "branches",
+    "compliance_stack",
+    "contact_ratio_cloud",
     "coverage_by_phase",
     "exponents",
     "extremes",
+    "finite_element_check",
     "finite_exponents",
     "gallery",
     "harmonics",
     "impact_states",
+    "load_shares",
     "mark_boundaries",
+    "mesh_curves",
     "motion_colour",
     "motion_shares",
+    "pair_stiffness",
+    "per_width",
     "phase_portrait",
     "poincare_section",
     "portrait",
@@ -48,6 +66,8 @@ __all__ = [
     "reached_motions",
     "score_ranking",
     "spectrum",
+    "stiffness_trends",
     "stiffness_wave",
     "time_history",
+    "tooth_outlines",
 ]
