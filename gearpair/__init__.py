@@ -6,7 +6,7 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 from gearpair import published
 from gearpair.batches import Status
 from gearpair.bifurcation_curves import BifurcationCurve, continue_bifurcation
-from gearpair.branch_search import coexistence, doubling_cascade, find_branches
+from gearpair.branch_search import doubling_cascade, find_branches
 from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit
 from gearpair.chaos_test import zero_one_test
 from gearpair.comparison import compare_attractors, compare_boundaries, compare_ranges
@@ -24,9 +24,11 @@ from gearpair.oscillator import Oscillator
 from gearpair.ranges import (
     MotionRange,
     attractor_names,
+    attractor_states,
     follow,
     found_ranges,
     motion_name,
+    motion_names,
     motion_ranges,
     motion_shares,
     motion_table,
@@ -37,6 +39,7 @@ from gearpair.spectra import Spectrum, spectrum
 from gearpair.spurpair import SpurPair
 from gearpair.steady import SteadyState, steady_state
 from gearpair.stiffness import StiffnessWave
+from gearpair.structure import bifurcation_table, cascade_table, coexistence, coexistence_table
 from gearpair.sweeps import sweep
 from gearpair.tables import Table
 
@@ -62,8 +65,12 @@ __all__ = [
     "Trajectory",
     "apparent_period",
     "attractor_names",
+    "attractor_states",
     "basins",
+    "bifurcation_table",
+    "cascade_table",
     "coexistence",
+    "coexistence_table",
     "compare_attractors",
     "compare_boundaries",
     "compare_ranges",
@@ -80,6 +87,7 @@ __all__ = [
     "lyapunov_exponents",
     "mesh_stiffness",
     "motion_name",
+    "motion_names",
     "motion_ranges",
     "motion_shares",
     "motion_table",

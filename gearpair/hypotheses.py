@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair import published
 from gearpair._checks import check_choice, check_count, check_number
-from gearpair.batches import SettleSettings, settle_side_by_side
+from gearpair.batches import SettleSettings, settle_lanes
 from gearpair.integrators import runge_kutta_sweep
 from gearpair.oscillator import Oscillator
 from gearpair.reproduction import Score, label, published_labels, score
@@ -221,7 +221,7 @@ def periods(
     settings = SettleSettings(
         n_transient=protocol.n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD
     )
-    out = settle_side_by_side(oscillators, starts, settings, 1 if protocol.seeding == "restart" else n_values)
+    out = settle_lanes(oscillators, starts, settings, chain=1 if protocol.seeding == "restart" else n_values)
     return out.period.reshape(len(hypotheses), n_values)[:, order]
 
 
@@ -422,7 +422,7 @@ def reached(
     values = 0.5 * (edges[1:] + edges[:-1])
     oscillators = [osc for h in hypotheses for osc in h.along(parameter, values) for _ in starts]
     settings = SettleSettings(n_transient=n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD)
-    out = settle_side_by_side(oscillators, np.tile(starts, (len(oscillators) // len(starts), 1)), settings, 1)
+    out = settle_lanes(oscillators, np.tile(starts, (len(oscillators) // len(starts), 1)), settings)
     found = out.period.reshape(len(hypotheses), n_values, len(starts))
     return [
         Reached(h, parameter, values, tuple(frozenset(label(int(m), parameter) for m in row) for row in found[i]))

@@ -290,6 +290,32 @@ def attractor_names(result: xr.Dataset, least_share: float = 0.0) -> list[str]:
     return names
 
 
+def attractor_states(osc: Oscillator, result: xr.Dataset, least_share: float = 0.0) -> list[SteadyState]:
+    """The periodic attractors of `gearpair.basins`, each described in full.
+
+    Parameters
+    ----------
+    osc : Oscillator
+        Whose basins they are.
+    result : xarray.Dataset
+        Of `gearpair.basins`.
+    least_share : float
+        Attractors that fewer of the starts reach are left out.
+
+    Returns
+    -------
+    list of SteadyState
+
+    Examples
+    --------
+    >>> [state.period for state in attractor_states(Oscillator(), basins(Oscillator(), [-2.0, 1.0], [0.0]))]
+    [1, 2]
+    """
+    columns = (result[f"attractor_{name}"].values.tolist() for name in ("x", "v", "share"))
+    rows = zip(*columns, strict=True)
+    return [steady_state(osc, x, v) for x, v, share in rows if np.isfinite(x) and share >= least_share]
+
+
 def motion_table(states: Mapping[str, SteadyState], parameter: str, digits: int = 3) -> Table:
     """Settled motions by name: the value of a parameter, extremes, impact state, modulus of the larger multiplier.
 

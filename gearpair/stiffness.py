@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_choice, check_number
+from gearpair._checks import check_choice, check_count, check_number
 
 Reading = Literal["printed", "swapped"]
 READINGS = ("printed", "swapped")
@@ -161,6 +161,40 @@ class StiffnessWave:
         turns = np.exp(-2j * np.pi * m * ends)
         steps = (turns[:, :-1] - turns[:, 1:]) / (2j * np.pi * m)
         return np.concatenate([[self.mean], steps @ np.asarray(self.levels)])
+
+    def truncated(self, n_harmonics: int, n_levels: int = 40) -> StiffnessWave:
+        """The mean and the first few harmonics of this wave alone, as a staircase of equal steps.
+
+        Parameters
+        ----------
+        n_harmonics : int
+            Highest harmonic kept, at least 0; 1 gives the sinusoid of the same mean and first harmonic.
+        n_levels : int
+            Levels of the staircase, at least ``2 n_harmonics + 1``.
+
+        Returns
+        -------
+        StiffnessWave
+            Each level is the mean of the truncated Fourier series over its step, so the mean is kept exactly.
+
+        Raises
+        ------
+        ValueError
+            For too few levels, or where the series is not positive (one harmonic alone can exceed the mean).
+
+        Examples
+        --------
+        >>> sinusoid = StiffnessWave.rectangular().truncated(1)
+        >>> round(sinusoid.mean, 4), np.round(2 * np.abs(sinusoid.harmonics(2)[1:]), 3).tolist()
+        (0.9464, [0.284, 0.0])
+        """
+        n_harmonics = check_count("n_harmonics", n_harmonics, at_least=0)
+        n_levels = check_count("n_levels", n_levels, at_least=2 * n_harmonics + 1)
+        m = np.arange(1, n_harmonics + 1)
+        middles = (np.arange(n_levels) + 0.5) / n_levels
+        kept = self.harmonics(n_harmonics)[1:] * np.sinc(m / n_levels)
+        levels = self.mean + 2.0 * (np.exp(2j * np.pi * np.outer(middles, m)) @ kept).real
+        return StiffnessWave(tuple(np.arange(n_levels) / n_levels), tuple(levels))
 
 
 def _numbers(name: str, values: Sequence[float]) -> tuple[float, ...]:

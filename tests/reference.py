@@ -172,7 +172,7 @@ def bisect(f, a, b, fa):
 
 @dataclass
 class Reference:
-    """A period in 70 digits: the end, the crossings (time in mesh periods, boundary, velocity, contact), the monodromy."""
+    """A period in 70 digits: its end, its crossings (mesh periods, boundary, velocity, contact), its monodromy."""
 
     x: mpf
     v: mpf

@@ -1,9 +1,8 @@
 """The march: one oscillator's motion over whole mesh periods, cell by cell, event by event."""
 
 import numpy as np
-from numba import prange
 
-from ._kernel import kernel, parallel_kernel
+from ._kernel import kernel
 from .cells import COSINE, S0, SINE, SV, SX, V0, VV, VX, WIDTH, X0, XV, XX
 from .closed_form import TERMS, evaluate, expand, fourth_derivative_bound
 from .event_search import INSIDE, UNDECIDED, first_exit, region_at
@@ -115,9 +114,9 @@ def march(cells, x, v, n_periods, series):
     return OK, x, v
 
 
-@parallel_kernel
-def march_starts(cells, starts, n_periods, ends, status):
-    """`march` from each row of `starts` (n, 2) in parallel, filling `ends` (n, 2) and `status` (n,)."""
-    for i in prange(starts.shape[0]):
-        series = np.empty(TERMS)
+@kernel
+def march_starts(first, last, cells, starts, n_periods, ends, status):
+    """`march` from rows `first` to `last` of `starts` (n, 2), filling the same of `ends` (n, 2) and `status` (n,)."""
+    series = np.empty(TERMS)
+    for i in range(first, last):
         status[i], ends[i, 0], ends[i, 1] = march(cells, starts[i, 0], starts[i, 1], n_periods, series)

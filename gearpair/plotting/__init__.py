@@ -15,10 +15,22 @@ from gearpair.plotting.diagrams import (
     range_lanes,
     range_strips,
 )
+from gearpair.plotting.maps import period_map
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
 from gearpair.plotting.reproduction import coverage_by_phase, reached_motions, score_ranking
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
+from gearpair.plotting.teeth import (
+    compliance_stack,
+    contact_ratio_cloud,
+    finite_element_check,
+    load_shares,
+    mesh_curves,
+    pair_stiffness,
+    per_width,
+    stiffness_trends,
+    tooth_outlines,
+)
 from gearpair.plotting.waves import harmonics, stiffness_wave
 
 __all__ = [
@@ -30,16 +42,24 @@ __all__ = [
     "bifurcation_curves",
     "bifurcation_diagram",
     "branches",
+    "compliance_stack",
+    "contact_ratio_cloud",
     "coverage_by_phase",
     "exponents",
     "extremes",
+    "finite_element_check",
     "finite_exponents",
     "gallery",
     "harmonics",
     "impact_states",
+    "load_shares",
     "mark_boundaries",
+    "mesh_curves",
     "motion_colour",
     "motion_shares",
+    "pair_stiffness",
+    "per_width",
+    "period_map",
     "phase_portrait",
     "poincare_section",
     "portrait",
@@ -48,6 +68,8 @@ __all__ = [
     "reached_motions",
     "score_ranking",
     "spectrum",
+    "stiffness_trends",
     "stiffness_wave",
     "time_history",
+    "tooth_outlines",
 ]

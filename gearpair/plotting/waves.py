@@ -40,8 +40,8 @@ def stiffness_wave(
     if mean:
         ax.axhline(wave.mean, color=colour, linestyle="--", linewidth=1.0)
         ax.annotate(
-            f"mean {wave.mean:.4g}", (n_periods, wave.mean), xytext=(-3, 3), textcoords="offset points", ha="right",
-            fontsize=8, color=colour,
+            f"mean {wave.mean:.4g}", (n_periods, wave.mean), xytext=(-3, -3 if wave.mean < 1.0 else 3),
+            textcoords="offset points", ha="right", va="top" if wave.mean < 1.0 else "bottom", fontsize=8, color=colour,
         )  # fmt: skip
     ax.axhline(1.0, color=BOUNDARY, linewidth=0.6, zorder=-1)
     top = max(1.0, *wave.levels)

@@ -1,7 +1,7 @@
-"""Finite-element gear bodies with one or several teeth: run once, the results kept beside this file.
+"""Finite-element gear bodies with one or several teeth: run once, the results kept in the package.
 
     pip install scikit-fem gmsh meshio
-    python tests/finite_elements/run.py          about two minutes; writes results.json beside it
+    python tests/finite_elements/run.py          about two minutes; writes its results
 
 Plane stress, quadratic triangles, E = b = module = 1, bore fixed. A unit force acts on a node of the flank along
 the line of action. What is recorded is the displacement along each load's own line of action of
@@ -34,7 +34,7 @@ from skfem.helpers import ddot, sym_grad, trace
 from gearpair.spurpair import SpurGear, SpurPair
 from gearpair.tooth_profile import ToothProfile
 
-HERE = Path(__file__).parent
+RESULTS = Path(__file__).parents[2] / "gearpair" / "data" / "finite_elements.json"
 NU = 0.3
 
 
@@ -271,7 +271,7 @@ def main() -> None:
             }
         )
         print(name, results[-1]["nodes"], {key: block["change_on_refining"] for key, block in blocks.items()})
-    (HERE / "results.json").write_text(_compact(results))
+    RESULTS.write_text(_compact(results))
 
 
 def _compact(results: list[dict[str, object]]) -> str:

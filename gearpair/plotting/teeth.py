@@ -1,0 +1,349 @@
+"""Teeth, what yields in them, and the mesh stiffness that comes of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair.finite_elements import MEASURES, FiniteElementBody
+from gearpair.meshing import MeshStiffness
+from gearpair.plotting.style import BOUNDARY, INK, LABELS, new_axes
+from gearpair.published import StiffnessRow
+from gearpair.spurpair import SpurGear
+from gearpair.tooth_profile import Root, ToothProfile
+
+Array = NDArray[np.float64]
+
+ROOT_NAMES: Mapping[str, str] = {
+    "trochoid": "fillet cut by the rack",
+    "straight": "straight lines to the root circle",
+    "base_circle": "clamped at the base circle",
+}
+ROOT_COLOURS: Mapping[str, str] = {"trochoid": INK, "straight": "#D55E00", "base_circle": "#009E73"}
+# Warm for the pinion, cold for the gear, the same order of parts in both; grey for what they share.
+PART_COLOURS: Mapping[str, str] = {
+    "pinion_foundation": "#B8621B",
+    "pinion_shear": "#DB8F4B",
+    "pinion_bending": "#EFBC8B",
+    "pinion_axial": "#F8E2CB",
+    "gear_foundation": "#1F5A8C",
+    "gear_shear": "#5B8FBC",
+    "gear_bending": "#9DBFDC",
+    "gear_axial": "#D6E4F0",
+    "hertz": "#8C8577",
+}
+MEASURE_LOOKS: Mapping[str, tuple[str, str]] = {
+    "section": ("o", "mean motion of the loaded section"),
+    "tip": ("^", "motion of the unloaded tooth end"),
+    "centre": ("v", "down to the centre line"),
+}
+LABEL_STIFFNESS = "stiffness per width (N/mm/µm)"
+
+
+def per_width(mesh: MeshStiffness) -> float:
+    """Factor from N/m to N/(mm µm): stiffness per millimetre of face width and micrometre of approach."""
+    return 1e-6 / mesh.pair.face_width_mm
+
+
+def tooth_outlines(
+    gear: SpurGear, ax: Axes | None = None, *, roots: Sequence[Root] = ("trochoid", "straight", "base_circle")
+) -> Axes:
+    """One tooth with each kind of root, on its root and base circles; lengths in modules.
+
+    Parameters
+    ----------
+    gear : SpurGear
+    ax : Axes, optional
+    roots : sequence of str
+        As `ToothProfile` knows them; the first is filled.
+
+    Returns
+    -------
+    Axes
+        With one line for each root, labelled in words, and the base circle, root circle and tip circle.
+    """
+    ax = new_axes(ax, 3.6)
+    pitch = math.pi / gear.teeth
+    arc = np.linspace(-pitch, pitch, 61)
+    circles = {"base circle": gear.base_radius_mm, "root circle": gear.root_circle_mm, "tip circle": gear.tip_circle_mm}
+    for name, radius_mm in circles.items():
+        radius = radius_mm / gear.module_mm
+        ax.plot(radius * np.sin(arc), radius * np.cos(arc), color=BOUNDARY, linewidth=0.6, linestyle=(0, (5, 3)))
+        at_end = (radius * math.sin(pitch), radius * math.cos(pitch))
+        ax.annotate(name, at_end, xytext=(3, 0), textcoords="offset points", fontsize=7.5, color=BOUNDARY, va="center")
+    for k, root in enumerate(roots):
+        h, y = _outline(ToothProfile(gear, root))
+        if k == 0:
+            ax.fill(h, y, color=ROOT_COLOURS[root], alpha=0.10, linewidth=0)
+        ax.plot(
+            h, y, color=ROOT_COLOURS[root], linewidth=2.0 if k == 0 else 1.4, label=ROOT_NAMES[root],
+            linestyle="-" if k == 0 else "--",
+        )  # fmt: skip
+    ax.set(xlabel="modules from the centre line", ylabel="modules from the gear's centre", aspect="equal")
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=1)
+    return ax
+
+
+def _outline(tooth: ToothProfile) -> tuple[Array, Array]:
+    """Left foot over the tip to the right foot: half thickness with sign, and height; in modules."""
+    gear = tooth.gear
+    tip = math.sqrt((gear.tip_circle_mm / gear.base_radius_mm) ** 2 - 1.0)
+    y_root, h_root, *_ = tooth.fillet(np.linspace(0.0, 1.0, 50))
+    y_flank, h_flank, *_ = tooth.involute(np.linspace(tooth.first_roll, tip, 50))
+    h, y = np.concatenate([h_root, h_flank]), np.concatenate([y_root, y_flank])
+    return np.concatenate([-h, h[::-1]]), np.concatenate([y, y[::-1]])
+
+
+def compliance_stack(mesh: MeshStiffness, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """What the compliance of one pair of teeth is made of, stacked along its path of contact.
+
+    Parameters
+    ----------
+    mesh : MeshStiffness
+    ax : Axes, optional
+    legend : bool
+        Name the parts beside the axes, the uppermost first.
+
+    Returns
+    -------
+    Axes
+        With one filled band for each part; compliance times face width, in micrometres per N/mm.
+    """
+    ax = new_axes(ax, 3.8)
+    parts = [name for name in PART_COLOURS if np.any(mesh.compliance_m_per_n[name])]
+    bands = [mesh.compliance_m_per_n[name] / per_width(mesh) for name in parts]
+    ax.stackplot(
+        mesh.path, bands, labels=[name.replace("_", ", ") for name in parts],
+        colors=[PART_COLOURS[name] for name in parts], linewidth=0.4, edgecolor="white",
+    )  # fmt: skip
+    _mark_pitch_point(mesh, ax)
+    ax.set(xlabel="mesh periods since the pair entered contact", ylabel="compliance (µm per N/mm)")
+    ax.set(xlim=(0.0, mesh.contact_ratio), ylim=(0.0, None))
+    if legend:
+        ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), reverse=True)
+    return ax
+
+
+def _mark_pitch_point(mesh: MeshStiffness, ax: Axes) -> None:
+    pair = mesh.pair
+    on_pinion = pair.pinion.base_radius_mm * math.tan(pair.working_pressure_angle)
+    where = (on_pinion - pair.contact_start_mm) / pair.base_pitch_mm
+    if 0.0 <= where <= pair.contact_ratio:
+        ax.axvline(where, color="#444444", linewidth=0.8, linestyle=":")
+
+
+def pair_stiffness(mesh: MeshStiffness, ax: Axes | None = None, *, colour: str = INK, label: str | None = None) -> Axes:
+    """Stiffness of one pair of teeth alone along its path of contact.
+
+    Parameters
+    ----------
+    mesh : MeshStiffness
+    ax : Axes, optional
+    colour, label : str
+        Of the curve.
+
+    Returns
+    -------
+    Axes
+        In N per millimetre of face width and micrometre.
+    """
+    ax = new_axes(ax, 3.0)
+    ax.plot(mesh.path, mesh.pair_stiffness_n_per_m * per_width(mesh), color=colour, label=label)
+    _mark_pitch_point(mesh, ax)
+    ax.set(xlabel="mesh periods since the pair entered contact", ylabel=LABEL_STIFFNESS)
+    ax.set(xlim=(0.0, mesh.contact_ratio))
+    ax.set_ylim(bottom=0.0)
+    return ax
+
+
+def mesh_curves(
+    meshes: Mapping[str, MeshStiffness],
+    ax: Axes | None = None,
+    *,
+    n_periods: int = 2,
+    two_levels: bool = False,
+    colours: Sequence[str] = (INK, "#D55E00", "#009E73", "#CC79A7", "#56B4E9"),
+    linestyle: str = "-",
+) -> Axes:
+    """Mesh stiffness over some mesh periods, one curve for each name.
+
+    Parameters
+    ----------
+    meshes : mapping of str to MeshStiffness
+    ax : Axes, optional
+    n_periods : int
+    two_levels : bool
+        Add the mean over each zone of the period, dashed: the rectangle, where two pairs and one alternate.
+    colours : sequence of str
+        Taken in turn.
+    linestyle : str
+        Of all the curves.
+
+    Returns
+    -------
+    Axes
+        In N per millimetre of face width and micrometre, from zero.
+    """
+    ax = new_axes(ax, 3.0)
+    for k, (name, mesh) in enumerate(meshes.items()):
+        factor, colour = per_width(mesh), colours[k % len(colours)]
+        time = np.concatenate([mesh.phase + period for period in range(n_periods)])
+        values = np.tile(mesh.stiffness_n_per_m * factor, n_periods)
+        jumps = np.flatnonzero(np.diff(np.tile(mesh.pairs_in_contact, n_periods))) + 1
+        ax.plot(
+            np.insert(time, jumps, np.nan), np.insert(values, jumps, np.nan), color=colour, label=name,
+            linestyle=linestyle,
+        )  # fmt: skip
+        ax.vlines(
+            time[jumps], values[jumps - 1], values[jumps], color=colour, linewidth=0.5, linestyle=":"
+        )  # the jumps themselves
+        if two_levels:
+            wave = mesh.wave(len(mesh.zones))
+            edges = np.concatenate([np.add(wave.edges, period) for period in range(n_periods)] + [[n_periods]])
+            levels = np.tile(wave.levels, n_periods) * mesh.mean * factor
+            ax.stairs(levels, edges, baseline=None, color=colour, linestyle="--", linewidth=1.0)
+    ax.set(xlabel=LABELS["tau"], ylabel=LABEL_STIFFNESS, xlim=(0.0, n_periods))
+    ax.set_ylim(bottom=0.0)
+    if len(meshes) > 1:
+        ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=len(meshes))
+    return ax
+
+
+def load_shares(
+    meshes: Mapping[str, MeshStiffness], ax: Axes | None = None, *, colours: Sequence[str] = (INK, "#D55E00")
+) -> Axes:
+    """The share of the load that one pair of teeth carries while it crosses its path of contact.
+
+    Parameters
+    ----------
+    meshes : mapping of str to MeshStiffness
+    ax : Axes, optional
+    colours : sequence of str
+        Taken in turn.
+
+    Returns
+    -------
+    Axes
+    """
+    ax = new_axes(ax, 2.4)
+    for k, (name, mesh) in enumerate(meshes.items()):
+        time = np.concatenate([mesh.phase + period for period in range(len(mesh.load_share))])
+        share = mesh.load_share.ravel()
+        ax.plot(time[share > 0.0], share[share > 0.0], color=colours[k % len(colours)], label=name)
+    ax.set(xlabel="mesh periods since the pair entered contact", ylabel="share of the load", ylim=(0.0, 1.05))
+    return ax
+
+
+def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Sequence[Axes]) -> list[Axes]:
+    """Compliance of one tooth and its gear body: the fast curve, finite elements, and how far apart they are.
+
+    Parameters
+    ----------
+    body : FiniteElementBody
+    mesh : MeshStiffness
+        Of the body's pair.
+    axes : sequence of two Axes
+        For the compliance, times E and face width, and for the deviation of the curve in percent.
+
+    Returns
+    -------
+    list of Axes
+        The first has the curve and one line of points for each measure, the second one line for each measure.
+    """
+    upper, lower = axes
+    unit = mesh.pair.youngs_modulus_gpa * 1e9 * mesh.pair.face_width_mm * 1e-3
+    fast = unit * sum(v for name, v in mesh.compliance_m_per_n.items() if name.startswith(body.who))
+    upper.plot(mesh.path, fast, color=INK, label="potential energy and foundation formula")
+    lower.axhline(0.0, color=BOUNDARY, linewidth=0.7)
+    for name, colour in zip(MEASURES, ("#D55E00", "#009E73", "#8A6D3B"), strict=True):
+        marker, words = MEASURE_LOOKS[name]
+        look: dict[str, Any] = {
+            "marker": marker,
+            "markersize": 4.5,
+            "color": colour,
+            "markerfacecolor": "white",
+            "label": words,
+        }
+        upper.plot(body.positions, body.compliance[name], linestyle="", **look)
+        deviation = np.interp(body.positions, mesh.path, fast) / body.compliance[name] - 1.0
+        lower.plot(body.positions, 100.0 * deviation, linewidth=0.8, **look)
+    upper.set(ylabel=r"compliance $\times\, E b$", xlim=(0.0, mesh.contact_ratio), ylim=(0.0, None))
+    lower.set(xlabel="mesh periods since the pair entered contact", ylabel="deviation (%)")
+    lower.set(xlim=(0.0, mesh.contact_ratio))
+    upper.legend(loc="upper left")
+    return [upper, lower]
+
+
+def stiffness_trends(
+    published: Sequence[StiffnessRow], computed: Mapping[str, Sequence[StiffnessRow]], axes: Sequence[Axes]
+) -> list[Axes]:
+    """Contact ratio, a and b against the gear's teeth: what is published and what is computed.
+
+    Parameters
+    ----------
+    published : sequence of StiffnessRow
+    computed : mapping of str to sequence of StiffnessRow
+        By the name for the legend.
+    axes : sequence of three Axes
+
+    Returns
+    -------
+    list of Axes
+        Each with one line for the article, named first, and one for each entry of `computed`.
+    """
+    colours = ("#D55E00", INK, "#009E73")
+    for ax, name in zip(axes, ("contact_ratio", "a", "b"), strict=True):
+        for k, (label, rows) in enumerate({"the article": published, **computed}.items()):
+            ax.plot(
+                [row.teeth_wheel for row in rows], [getattr(row, name) for row in rows], marker="o" if k else "s",
+                markersize=5, color=colours[k % len(colours)], linestyle="-" if k else "--", label=label,
+            )  # fmt: skip
+        ax.set(xlabel="teeth of the gear $z_2$", title=LABELS[name])
+        ax.set_xticks([row.teeth_wheel for row in published])
+    return list(axes)
+
+
+def contact_ratio_cloud(ratios: ArrayLike, published: Sequence[StiffnessRow], ax: Axes | None = None) -> Axes:
+    """Contact ratio of the first pair and its growth to the last: many tooth systems, and the article.
+
+    Parameters
+    ----------
+    ratios : array_like, shape (n, m)
+        Contact ratios of n tooth systems at the m pairs of the article.
+    published : sequence of StiffnessRow
+        Those m pairs.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+        With one dot for each system and a star for the article.
+    """
+    ax = new_axes(ax, 3.2)
+    values = np.asarray(ratios, dtype=float)
+    first, last = published[0], published[-1]
+    ax.plot(
+        values[:, 0], values[:, -1] - values[:, 0], linestyle="", marker=".", markersize=3, markeredgewidth=0,
+        color=INK, alpha=0.45, rasterized=True,
+    )  # fmt: skip
+    ax.plot(
+        first.contact_ratio, last.contact_ratio - first.contact_ratio, linestyle="", marker="*", markersize=13,
+        color="#D55E00",
+    )  # fmt: skip
+    handles = [
+        Line2D([], [], linestyle="", marker="*", markersize=11, color="#D55E00", label="the article"),
+        Line2D([], [], linestyle="", marker=".", markersize=6, color=INK, label="tooth systems that can run"),
+    ]
+    ax.legend(handles=handles, loc="upper right")
+    ax.axhline(0.0, color=BOUNDARY, linewidth=0.6)
+    ax.set(
+        xlabel=rf"contact ratio at $z_2 = {first.teeth_wheel}$",
+        ylabel=rf"growth to $z_2 = {last.teeth_wheel}$",
+    )
+    return ax
