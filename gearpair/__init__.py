@@ -6,9 +6,10 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 from gearpair import published
 from gearpair.batches import Status
 from gearpair.bifurcation_curves import BifurcationCurve, continue_bifurcation
-from gearpair.branch_search import coexistence, doubling_cascade, find_branches
+from gearpair.branch_search import doubling_cascade, find_branches
 from gearpair.branches import Bifurcation, Branch, continue_orbit, doubled_orbit
-from gearpair.comparison import compare_boundaries, compare_ranges
+from gearpair.chaos_test import zero_one_test
+from gearpair.comparison import compare_attractors, compare_boundaries, compare_ranges
 from gearpair.drive import GearDrive
 from gearpair.exponents import lyapunov_exponents
 from gearpair.impacts import ImpactState, impact_state
@@ -23,26 +24,29 @@ from gearpair.oscillator import Oscillator
 from gearpair.ranges import (
     MotionRange,
     attractor_names,
+    attractor_states,
     follow,
     found_ranges,
     motion_name,
+    motion_names,
     motion_ranges,
     motion_shares,
+    motion_table,
+    range_of,
     representatives,
 )
 from gearpair.spectra import Spectrum, spectrum
 from gearpair.spurpair import SpurPair
 from gearpair.steady import SteadyState, steady_state
 from gearpair.stiffness import StiffnessWave
+from gearpair.structure import bifurcation_table, cascade_table, coexistence, coexistence_table
 from gearpair.sweeps import sweep
 from gearpair.tables import Table
 
 __all__ = [
-    "coexistence",
-    "doubling_cascade",
-    "apparent_period",
-    "runge_kutta_section",
-    "runge_kutta_sweep",
+    "bifurcation_table",
+    "cascade_table",
+    "coexistence_table",
     "Bifurcation",
     "BifurcationCurve",
     "Branch",
@@ -62,13 +66,18 @@ __all__ = [
     "StiffnessWave",
     "Table",
     "Trajectory",
+    "apparent_period",
     "attractor_names",
+    "attractor_states",
     "basins",
+    "coexistence",
+    "compare_attractors",
     "compare_boundaries",
     "compare_ranges",
     "continue_bifurcation",
     "continue_orbit",
     "doubled_orbit",
+    "doubling_cascade",
     "find_branches",
     "find_orbits",
     "follow",
@@ -78,18 +87,21 @@ __all__ = [
     "lyapunov_exponents",
     "mesh_stiffness",
     "motion_name",
+    "motion_names",
     "motion_ranges",
     "motion_shares",
+    "motion_table",
     "parameter_map",
-    "published",
-    "runge_kutta_section",
-    "runge_kutta_sweep",
     "periodic_orbit",
     "published",
+    "range_of",
     "representatives",
+    "runge_kutta_section",
+    "runge_kutta_sweep",
     "spectrum",
     "steady_state",
     "stroboscopic_map",
     "sweep",
     "trajectory",
+    "zero_one_test",
 ]

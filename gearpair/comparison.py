@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from gearpair.published import Boundary, Range
-from gearpair.ranges import MotionRange
+from gearpair.ranges import MotionRange, attractor_names
 from gearpair.tables import Table
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def compare_ranges(published: Iterable[Range], found: Sequence[MotionRange], digits: int = 3) -> Table:
@@ -41,6 +46,37 @@ def compare_ranges(published: Iterable[Range], found: Sequence[MotionRange], dig
         name = f"period {stated.period}" if stated.period else stated.motion
         rows.append([stated.item, interval, name, ", ".join(texts) or "none this wide", share])
     return Table(["item", "range", "published", "periodic motions found", "agreement"], rows)
+
+
+def compare_attractors(
+    published: Iterable[Range], planes: Mapping[float, xr.Dataset], least_share: float, digits: int = 3
+) -> Table:
+    """The published motion at some values of the parameter beside every attractor found there.
+
+    Parameters
+    ----------
+    published : iterable of Range
+        As `gearpair.published.ranges` gives them.
+    planes : mapping of float to xarray.Dataset
+        Of `gearpair.basins`, by the value of the parameter.
+    least_share : float
+        Attractors that fewer of the starts reach are left out.
+    digits : int
+        Decimals shown.
+
+    Returns
+    -------
+    Table
+    """
+    ranges = list(published)
+    rows = []
+    for value, plane in planes.items():
+        stated = next((r for r in ranges if value in r or value == ranges[-1].upper == r.upper), None)
+        motion = "–" if stated is None else f"period {stated.period}" if stated.period else stated.motion
+        counts = Counter(attractor_names(plane, least_share))
+        texts = [name if count == 1 else f"{name} ({count} of them)" for name, count in counts.items()]
+        rows.append([f"{value:.{digits}f}", stated.item if stated else "–", motion, "; ".join(texts)])
+    return Table(["value", "item", "published", "attractors found"], rows)
 
 
 def compare_boundaries(

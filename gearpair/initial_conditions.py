@@ -71,7 +71,7 @@ def basins(
     v_grid, x_grid = np.meshgrid(vs, xs, indexing="ij")
     starts = np.stack([x_grid.ravel(), v_grid.ravel()], axis=1)
     settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
-    out = settle_lanes([osc] * len(starts), starts, settings, carry=False, progress=progress)
+    out = settle_lanes([osc] * len(starts), starts, settings, progress=progress)
     labels, first = _attractors(out)
     shape = (len(vs), len(xs))
     variables = settled_variables(out, ("v", "x"), shape)

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_choice, check_count, check_number
-from gearpair._flow.runge_kutta import COMPLETE, integrate_batch, integrate_chain
+from gearpair._cores import on_all_cores
+from gearpair._flow.runge_kutta import COMPLETE, integrate_rows
 from gearpair._flow.settle import Lanes
 from gearpair.batches import SettleSettings, lanes_of
 from gearpair.motion import check_starts
@@ -192,6 +193,16 @@ def _integrated(
     n = len(oscillators)
     lanes: Lanes = lanes_of(oscillators, np.broadcast_to([float(xs), float(vs)], (n, 2)), SettleSettings(n_transient=0))
     points, status, calls = np.empty((n, n_kept, 2)), np.empty(n, np.int64), np.empty(n, np.int64)
-    run = integrate_chain if carry else integrate_batch
-    run(lanes, n_periods, float(rtol), float(atol), MAX_STEPS_PER_PERIOD * n_periods, points, status, calls)
+    arguments = (
+        lanes,
+        carry,
+        n_periods,
+        float(rtol),
+        float(atol),
+        MAX_STEPS_PER_PERIOD * n_periods,
+        points,
+        status,
+        calls,
+    )
+    on_all_cores(integrate_rows, arguments, n, n if carry else 1)
     return points, status, calls

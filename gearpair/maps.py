@@ -68,7 +68,7 @@ def parameter_map(
     settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
     xs, vs = check_starts(x, v)
     starts = np.broadcast_to([float(xs), float(vs)], (len(oscillators), 2))
-    out = settle_lanes(oscillators, starts, settings, carry=False, progress=progress)
+    out = settle_lanes(oscillators, starts, settings, progress=progress)
     import xarray as xr  # here, so that importing gearpair stays quick
 
     return xr.Dataset(

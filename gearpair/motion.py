@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_choice, check_count, check_number
+from gearpair._cores import on_all_cores
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.march import (
     ESCAPED,
@@ -21,6 +22,8 @@ from gearpair._flow.march import (
 )
 from gearpair._flow.observe import record
 from gearpair.oscillator import Oscillator
+
+PERIODS_AT_ONCE = 10_000  # of the march, between two chances to stop: some ten milliseconds
 
 METHODS = ("exact", "RK23", "RK45", "DOP853", "Radau", "BDF", "LSODA")
 
@@ -137,7 +140,8 @@ def stroboscopic_map(
     n = check_count("n", n, at_least=0)
     starts = np.stack([xs.ravel(), vs.ravel()], axis=1)
     ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
-    march_starts(osc._cells, starts, n, ends, status)
+    block = max(1, PERIODS_AT_ONCE // max(n, 1))
+    on_all_cores(march_starts, (osc._cells, starts, n, ends, status), len(starts), block)
     for code, remedy in CAPPED.items():
         if np.any(status == code):
             i = int(np.argmax(status == code))

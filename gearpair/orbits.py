@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._checks import check_count
+from gearpair._cores import on_all_cores
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.cycle import map_at, newton_starts, turns_at
 from gearpair._flow.march import OK, march
@@ -18,6 +19,7 @@ from gearpair.motion import check_starts
 from gearpair.oscillator import Oscillator
 
 SAME_POINT = 1e-9  # section points of one orbit closer than this are one
+STARTS_AT_ONCE = 16  # of Newton searches, between two chances to stop
 SAME_ORBIT = 1e-7  # two orbits whose points lie this close are one
 MAX_TURNS_PER_PERIOD = 64
 
@@ -218,7 +220,7 @@ def find_orbits(
     orbits: list[PeriodicOrbit] = []
     for period in range(1, max_period + 1):
         ends, found = np.empty_like(starts), np.zeros(n_starts, np.bool_)
-        newton_starts(osc._flow_parameters, starts, period, ends, found)
+        on_all_cores(newton_starts, (osc._cells, starts, period, ends, found), n_starts, STARTS_AT_ONCE)
         for x_end, v_end in ends[found].tolist():
             if not any(_passes(orbit, x_end, v_end) for orbit in orbits):
                 shortest = _minimal_period(osc, x_end, v_end, period)

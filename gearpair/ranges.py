@@ -17,11 +17,14 @@ from gearpair.initial_conditions import basins
 from gearpair.oscillator import Oscillator
 from gearpair.steady import SteadyState, steady_state
 from gearpair.sweeps import attributes, oscillators_along, sweep
+from gearpair.tables import Table
 
 if TYPE_CHECKING:
     import xarray as xr
 
 CHAOS = "chaos"
+LARGEST_STEP = 0.2  # of X_min and X_max between two values of one motion, relative to their distance
+TRIES = 20  # values at which a representative is looked for again before the sweep is given up
 IMPACT_NAMES: Mapping[str, str] = {
     ImpactState.NEVER_IN_CONTACT: "never in contact",
     ImpactState.NONE_DRIVE: "no impact",
@@ -88,8 +91,8 @@ def motion_ranges(result: xr.Dataset) -> tuple[MotionRange, ...]:
 
     Examples
     --------
-    >>> motion_ranges(sweep(Oscillator(), "mesh_frequency", [0.78, 0.75, 0.7]))
-    (MotionRange(lower=0.7, upper=0.75, motion='period 2'), MotionRange(lower=0.78, upper=0.78, motion='period 4'))
+    >>> motion_ranges(sweep(Oscillator(), "mesh_frequency", [0.78, 0.74, 0.7]))
+    (MotionRange(lower=0.7, upper=0.74, motion='period 2'), MotionRange(lower=0.78, upper=0.78, motion='period 4'))
     """
     values = result[swept_parameter(result)].values
     order = np.argsort(values)
@@ -181,12 +184,21 @@ def representatives(
                 continue
             widest = max(met, key=lambda run: run.width)
             target = (near or {}).get(motion, 0.5 * (widest.lower + widest.upper))
-            values = result[parameter].values
-            i = int(np.argmin(np.where(motion_names(result) == motion, np.abs(values - target), np.inf)))
-            x, v = (float(result[name].values[i, 0]) for name in ("x", "v"))
-            found[motion] = steady_state(osc.replace(**{parameter: float(values[i])}), x, v)
-            break
+            where = np.flatnonzero(motion_names(result) == motion)
+            nearest = where[np.argsort(np.abs(result[parameter].values[where] - target), kind="stable")]
+            state = next(filter(None, (_settled_again(osc, result, i, motion) for i in nearest[:TRIES])), None)
+            if state is not None:
+                found[motion] = state
+                break
     return found
+
+
+def _settled_again(osc: Oscillator, result: xr.Dataset, i: int, motion: str) -> SteadyState | None:
+    """The motion at value `i` of a sweep, or None where it was about to become another (a chaotic transient)."""
+    parameter = swept_parameter(result)
+    x, v = (float(result[name].values[i, 0]) for name in ("x", "v"))
+    state = steady_state(osc.replace(**{parameter: float(result[parameter].values[i])}), x, v)
+    return state if motion_name(state.status, state.period) == motion else None
 
 
 def follow(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> tuple[xr.Dataset, ...]:
@@ -221,6 +233,39 @@ def follow(state: SteadyState, parameter: str, values: ArrayLike, **settings: An
     return tuple(sweep(state.oscillator, parameter, way, x=x, v=v, **settings) for way in ways if len(way))
 
 
+def range_of(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> MotionRange:
+    """How far one settled motion lives: the part of `follow` in which it keeps its period and its size.
+
+    From one value to the next X_min and X_max may change by no more than a fifth of their distance; a larger step is a
+    jump to another motion.
+
+    Parameters
+    ----------
+    state, parameter, values, **settings
+        As for `follow`.
+
+    Returns
+    -------
+    MotionRange
+
+    Examples
+    --------
+    >>> range_of(steady_state(Oscillator()), "mesh_frequency", [0.65, 0.7, 0.75, 0.78]).upper
+    0.75
+    """
+    name, here = motion_name(state.status, state.period), state.oscillator.parameter(parameter)
+    ends = [here, here]
+    for result in follow(state, parameter, values, **settings):
+        visited = result[parameter].values
+        sizes = np.stack([result.x_min.values, result.x_max.values])
+        steps = np.abs(np.diff(sizes, axis=1, prepend=[[state.x_min], [state.x_max]])).max(axis=0)
+        changed = np.flatnonzero((motion_names(result) != name) | ~(steps <= LARGEST_STEP * np.ptp(sizes, axis=0)))
+        kept = visited[: changed[0]] if len(changed) else visited
+        if len(kept):
+            ends = [min(ends[0], float(kept.min())), max(ends[1], float(kept.max()))]
+    return MotionRange(ends[0], ends[1], name)
+
+
 def attractor_names(result: xr.Dataset, least_share: float = 0.0) -> list[str]:
     """What each attractor of `gearpair.basins` is: its motion and, unless chaotic, its impact state.
 
@@ -243,6 +288,53 @@ def attractor_names(result: xr.Dataset, least_share: float = 0.0) -> list[str]:
             motion = motion_name(str(status), int(period))
             names.append(f"{motion}, {IMPACT_NAMES[str(state)]}" if status == Status.PERIODIC else motion)
     return names
+
+
+def attractor_states(osc: Oscillator, result: xr.Dataset, least_share: float = 0.0) -> list[SteadyState]:
+    """The periodic attractors of `gearpair.basins`, each described in full.
+
+    Parameters
+    ----------
+    osc : Oscillator
+        Whose basins they are.
+    result : xarray.Dataset
+        Of `gearpair.basins`.
+    least_share : float
+        Attractors that fewer of the starts reach are left out.
+
+    Returns
+    -------
+    list of SteadyState
+
+    Examples
+    --------
+    >>> [state.period for state in attractor_states(Oscillator(), basins(Oscillator(), [-2.0, 1.0], [0.0]))]
+    [1, 2]
+    """
+    columns = (result[f"attractor_{name}"].values.tolist() for name in ("x", "v", "share"))
+    rows = zip(*columns, strict=True)
+    return [steady_state(osc, x, v) for x, v, share in rows if np.isfinite(x) and share >= least_share]
+
+
+def motion_table(states: Mapping[str, SteadyState], parameter: str, digits: int = 3) -> Table:
+    """Settled motions by name: the value of a parameter, extremes, impact state, modulus of the larger multiplier.
+
+    Of a motion that is not periodic only the value is told: the rest depends on the span that was looked at.
+
+    Examples
+    --------
+    >>> motion_table({"the baseline": steady_state(Oscillator())}, "damping_ratio")
+    motion        damping_ratio  X_min  X_max  impact state  largest multiplier
+    ---------------------------------------------------------------------------
+    the baseline          0.020  0.118  1.492  single-sided               0.698
+    """
+    rows = []
+    for name, state in states.items():
+        cells = [f"{state.x_min:.{digits}f}", f"{state.x_max:.{digits}f}", IMPACT_NAMES[state.impact_state or ""]]
+        cells.append(f"{abs(state.multipliers[0]):.{digits}f}")
+        value = f"{state.oscillator.parameter(parameter):.{digits}f}"
+        rows.append([name, value, *(cells if state.period else ["–"] * len(cells))])
+    return Table(["motion", parameter, "X_min", "X_max", "impact state", "largest multiplier"], rows)
 
 
 def motion_shares(

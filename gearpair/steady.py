@@ -109,7 +109,7 @@ def steady_state(
     settings = SettleSettings(
         n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=max(n_samples, max_period)
     )
-    out = settle_lanes([osc], np.array([[xs, vs]]), settings, carry=True)
+    out = settle_lanes([osc], np.array([[xs, vs]]), settings)
     return describe(osc, out, 0)
 
 

@@ -97,7 +97,9 @@ def sweep(
     )
     xs, vs = check_starts(x, v)
     starts = np.broadcast_to([float(xs), float(vs)], (len(oscillators), 2))
-    out = settle_lanes(oscillators, starts, settings, carry=seeding == "carry", progress=progress)
+    out = settle_lanes(
+        oscillators, starts, settings, chain=len(oscillators) if seeding == "carry" else 1, progress=progress
+    )
     variables = settled_variables(out, (parameter,), (len(checked),))
     for i, name in enumerate(("x", "v")):
         variables[name] = ((parameter, "sample"), out.points[:, :, i], attributes(name))

@@ -1,7 +1,7 @@
 """Independent references for the exact flow: nothing here is shared with `gearpair._flow`.
 
 `dop853_period` integrates each linear piece by DOP853 and restarts at every event. `mpmath_period`
-solves each linear piece with a hundred digits and finds events by brute force: dense
+solves each linear piece with seventy digits and finds events by brute force: dense
 sampling of X'' parts the piece where X' is monotone, its roots part it where X is, and bisection does the rest.
 """
 
@@ -16,9 +16,9 @@ from scipy.integrate import solve_ivp
 import gearpair as gp
 from gearpair._flow.cells import Parameters
 
-mp.dps = 100
+mp.dps = 70
 # Added to every stiffness: it parts coinciding roots and resonances, and shifts the answer by as little.
-NUDGE = mpf(10) ** -40
+NUDGE = mpf(10) ** -30
 
 
 def kernel_parameters(osc: gp.Oscillator) -> Parameters:
@@ -145,8 +145,8 @@ class Piece:
 
 
 def bisect(f, a, b, fa):
-    """A root of f between a and b to sixty digits: bisection, then the secant in its bracket."""
-    for _ in range(12):
+    """A root of f between a and b to fifty digits: bisection, then the secant in its bracket."""
+    for _ in range(4):
         middle = (a + b) / 2
         fm = f(middle)
         if fm * fa > 0:
@@ -160,7 +160,7 @@ def bisect(f, a, b, fa):
     for _ in range(60):
         c = (a * fb - b * fa) / (fb - fa)
         fc = f(c)
-        if abs(b - a) < mpf(10) ** -60 or abs(fc) < mpf(10) ** -70:
+        if abs(b - a) < mpf(10) ** -50 or abs(fc) < mpf(10) ** -60:
             return c
         if fc * fb < 0:
             a, fa = b, fb
@@ -172,7 +172,7 @@ def bisect(f, a, b, fa):
 
 @dataclass
 class Reference:
-    """A period in 100 digits: the end, the crossings (time in mesh periods, boundary, velocity, contact), the monodromy."""
+    """A period in 70 digits: its end, its crossings (mesh periods, boundary, velocity, contact), its monodromy."""
 
     x: mpf
     v: mpf

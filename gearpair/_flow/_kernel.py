@@ -1,9 +1,27 @@
 """How every kernel here is compiled, in one place."""
 
-from functools import partial
+from hashlib import sha256
+from pathlib import Path
 
 from numba import njit
+from numba.core.caching import IndexDataCacheFile
 
 # Multiply-adds may be fused; nothing is reordered, and a division by zero gives inf instead of raising.
-kernel = partial(njit, cache=True, error_model="numpy", fastmath={"contract"}, nogil=True)
-parallel_kernel = partial(kernel, parallel=True)
+OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}, "nogil": True}
+
+# numba's disk cache looks only at the file a kernel stands in, but a kernel contains those that it calls. So the
+# names of the cached files carry a digest of all sources: after an edit nothing compiled before is found again.
+SOURCES = sha256(b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))).hexdigest()[:16]
+
+
+def kernel(function):
+    """Compile `function` at its first call, or load what an earlier process compiled from the same sources."""
+    try:
+        compiled = njit(function, cache=True, **OPTIONS)
+    except RuntimeError:  # nowhere to write a cache
+        return njit(function, **OPTIONS)
+    cache = getattr(compiled, "_cache", None)  # without it, NUMBA_DISABLE_JIT has left a plain function
+    if cache is not None:
+        name = f"{cache._impl.filename_base}-{SOURCES}"
+        cache._cache_file = IndexDataCacheFile(cache._cache_path, name, SOURCES)
+    return compiled

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ._kernel import kernel
-from .closed_form import DEGREE, REACH, TERMS, fastest_rate, fill_basis
+from .closed_form import DEGREE, REACH, TERMS, fastest_rate, fill_basis, fourth_derivative_bound
 
 # Columns of `Cells.maps`: x1 = XX x + XV v + X0, v1 = VX x + VV v + V0, and the spread
 # SX |x - s| + SV |v| + S0 >= max |w^4 X''''| / 384 over the cell.
@@ -48,7 +48,6 @@ class Cells(NamedTuple):
     level: np.ndarray  # (n_cells,) index of the stiffness level
     maps: np.ndarray  # (n_cells, 3, COLUMNS)
     bases: np.ndarray  # (n_levels, 2, 5, TERMS), free flight and contact
-    bends: np.ndarray  # (n_levels, 2, 5): bounds of |second derivative in t| per unit input
     stiffness: np.ndarray  # (n_levels,)
     period: float
     damping_ratio: float
@@ -79,7 +78,6 @@ def build_cells(p):
         np.empty(n_cells, np.int64),
         np.empty((n_cells, 3, COLUMNS)),
         np.empty((n_levels, 2, 5, TERMS)),
-        np.empty((n_levels, 2, 5)),
         p.levels,
         2.0 * np.pi / p.mesh_frequency,
         p.damping_ratio,
@@ -92,9 +90,6 @@ def build_cells(p):
         width = span * cells.period
         fill_basis(0.0, p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 0])
         fill_basis(p.levels[i], p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 1])
-        for contact in range(2):
-            for k in range(5):
-                cells.bends[i, contact, k] = derivative_bound(cells.bases[i, contact, k], 2)
         for m in range(n):
             start = p.edges[i] + m * span
             theta = cells.turn * start + p.error_phase
@@ -151,22 +146,10 @@ def fill_map(cells, j, region):
     row[VX], row[VV] = ends[1, 0], ends[1, 1]
     row[X0] = ends[0, 2] * cells.force + ends[0, 3] * sine + ends[0, 4] * cosine + shift * (1.0 - ends[0, 0])
     row[V0] = ends[1, 2] * cells.force + ends[1, 3] * sine + ends[1, 4] * cosine - shift * ends[1, 0]
-    row[SX] = derivative_bound(basis[0], 4) / 384.0
-    row[SV] = derivative_bound(basis[1], 4) / 384.0
+    row[SX] = fourth_derivative_bound(basis[0], 1.0) / 384.0
+    row[SV] = fourth_derivative_bound(basis[1], 1.0) / 384.0
     row[S0] = (
-        derivative_bound(basis[2], 4) * abs(cells.force)
-        + derivative_bound(basis[3], 4) * abs(sine)
-        + derivative_bound(basis[4], 4) * abs(cosine)
+        fourth_derivative_bound(basis[2], 1.0) * abs(cells.force)
+        + fourth_derivative_bound(basis[3], 1.0) * abs(sine)
+        + fourth_derivative_bound(basis[4], 1.0) * abs(cosine)
     ) / 384.0
-
-
-@kernel
-def derivative_bound(series, order):
-    """A bound of |d^order p / dt^order| on [0, 1] for a power series p: the sum of its terms' moduli."""
-    bound = 0.0
-    for n in range(order, TERMS):
-        factor = 1.0
-        for m in range(order):
-            factor *= n - m
-        bound += factor * abs(series[n])
-    return bound

@@ -80,3 +80,22 @@ def evaluate(series, t):
         dp = dp * t + p
         p = p * t + series[n]
     return p, dp, 2.0 * half_ddp
+
+
+@kernel
+def evaluate_jerk(series, t):
+    """Value and first three derivatives of a power series at t."""
+    p, dp, ddp = evaluate(series, t)
+    dddp = 0.0
+    for n in range(DEGREE, 2, -1):
+        dddp = dddp * t + n * (n - 1) * (n - 2) * series[n]
+    return p, dp, ddp, dddp
+
+
+@kernel
+def fourth_derivative_bound(series, end):
+    """``max |p''''|`` of a power series p on [0, end], from above: the sum of its terms' moduli."""
+    bound = 0.0
+    for n in range(DEGREE, 3, -1):
+        bound = bound * end + n * (n - 1) * (n - 2) * (n - 3) * abs(series[n])
+    return bound

@@ -1,9 +1,8 @@
 """What a continuation asks of one oscillator: the period map with its derivative, and a cycle's turning points."""
 
 import numpy as np
-from numba import prange
 
-from ._kernel import kernel, parallel_kernel
+from ._kernel import kernel
 from .cells import START, WIDTH, build_cells
 from .closed_form import TERMS, evaluate
 from .event_search import INSIDE, UNDECIDED, least_step, next_turn
@@ -65,12 +64,9 @@ def segment_turns(cells, j, cycle, start, series, end, turns, n):
     return n
 
 
-@parallel_kernel
-def newton_starts(p, starts, period, ends, found):
-    """Newton's method from each row of `starts` (n, 2), in parallel."""
-    for i in prange(starts.shape[0]):
-        cells = build_cells(p)
-        m = np.empty((2, 2))
-        found[i], ends[i, 0], ends[i, 1], _residual = newton(
-            cells, starts[i, 0], starts[i, 1], period, m, np.empty(TERMS)
-        )
+@kernel
+def newton_starts(first, last, cells, starts, period, ends, found):
+    """Newton's method from rows `first` to `last` of `starts` (n, 2), filling the same of `ends` and `found`."""
+    m, series = np.empty((2, 2)), np.empty(TERMS)
+    for i in range(first, last):
+        found[i], ends[i, 0], ends[i, 1], _residual = newton(cells, starts[i, 0], starts[i, 1], period, m, series)

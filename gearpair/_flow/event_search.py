@@ -9,15 +9,17 @@ certificates, cheapest first:
 2. *Monotone.* The interpolant's slope is off by at most (sqrt(3) / 216) end^3 max |p''''|, which is
    `MONOTONE` times the spread in the scale of differences of Bezier points: with these
    all of one sign by more than that, p is monotone, and leaves exactly where its end value says.
-3. *Step by step.* From distance d >= 0 with rate u, no crossing can happen before the first positive root
-   of d + u h - B h^2 / 2, where B >= max |p''|. Stepping by that root never passes a crossing; it
-   converges quadratically on a transversal one.
+3. *Step by step.* From distance d >= 0 with rate u and m <= p'' over the step (towards the boundary is negative),
+   no crossing can happen before the first positive root of d + u h + m h^2 / 2. Stepping by that root never
+   passes a crossing; it converges quadratically on a transversal one, and where m > 0 bends the motion away a
+   near miss is passed in one step. Over a step up to H, m = p''(t) + min(0, H p'''(t)) - H^2/2 max |p''''| will do; H
+   is halved until the step no longer grows.
 """
 
 import numpy as np
 
 from ._kernel import kernel
-from .closed_form import TERMS, evaluate
+from .closed_form import TERMS, evaluate, evaluate_jerk, fourth_derivative_bound
 
 MONOTONE = 384.0 * np.sqrt(3.0) / 216.0 / 3.0 * 1.01
 ROUNDING = 2.0**-52
@@ -26,14 +28,27 @@ INSIDE, LEFT, UNDECIDED = 0, 1, 2
 
 
 @kernel
-def certified_step(d, u, bend):
-    """The first positive root h of ``d + u h - bend h^2 / 2``, for d >= 0: no crossing before it."""
-    root = np.sqrt(u * u + 2.0 * bend * d)
+def certified_step(d, u, m):
+    """The first positive root h of ``d + u h + m h^2 / 2``, for d >= 0; inf where there is none."""
+    square = u * u - 2.0 * m * d
+    if square < 0.0 or (u >= 0.0 and m >= 0.0):
+        return np.inf
     if u > 0.0:
-        return (u + root) / bend
+        return (u + np.sqrt(square)) / -m
     if d == 0.0:
         return 0.0
-    return 2.0 * d / (root - u)
+    return 2.0 * d / (np.sqrt(square) - u)
+
+
+@kernel
+def longest_step(d, u, a, j, fourth, end):
+    """The longest certified step up to `end` from distance d, derivatives u, a, j, a fourth within +-`fourth`."""
+    step = 0.0
+    while end > step:
+        m = a + min(0.0, j * end) - 0.5 * fourth * end * end
+        step = max(step, min(end, certified_step(d, u, m)))
+        end *= 0.5
+    return step
 
 
 @kernel
@@ -56,14 +71,15 @@ def region_at(x, v, acceleration, force_rate):
 
 
 @kernel
-def first_exit(series, region, end, x1, v1, spread, bend):
+def first_exit(series, region, end, x1, v1, fourth):
     """When the motion first leaves `region` in (0, end].
 
     Returns (outcome, t, boundary): LEFT at t through X = boundary, INSIDE with t = end, or
     UNDECIDED when `MAX_STEPS` certified steps did not reach the end.
 
-    ``x1, v1`` are value and slope (per t) at `end`; ``spread`` and ``bend`` as in the module's text.
+    ``x1, v1`` are value and slope (per t) at `end`; ``fourth >= max |p''''|``.
     """
+    spread = fourth * end**4 / 384.0
     b0, b3 = series[0], x1
     b1 = b0 + series[1] * end / 3.0
     b2 = b3 - v1 * end / 3.0
@@ -80,7 +96,7 @@ def first_exit(series, region, end, x1, v1, spread, bend):
         if (rising and x1 <= ceiling) or (falling and x1 >= floor):
             return INSIDE, end, 0.0
         return LEFT, single_root(series, boundary, end, b0, b1, b2, b3), boundary
-    return step_by_step(series, floor, ceiling, end, bend)
+    return step_by_step(series, floor, ceiling, end, fourth)
 
 
 @kernel
@@ -118,29 +134,26 @@ def single_root(series, boundary, end, b0, b1, b2, b3):
 
 
 @kernel
-def step_by_step(series, floor, ceiling, end, bend):
+def step_by_step(series, floor, ceiling, end, fourth):
     """`first_exit` by certified steps alone."""
-    # Below `tiny` a distance is rounding; moving for `sqrt(2 tiny / bend)` cannot pass it by more than that.
-    tiny = ROUNDING * max(1.0, abs(series[0]))
-    least = np.sqrt(2.0 * tiny / bend) if bend > 0.0 else end
+    tiny = ROUNDING * max(1.0, abs(series[0]))  # below this a distance is rounding
     t = 0.0
     for _ in range(MAX_STEPS):
-        p, dp, _ddp = evaluate(series, t)
+        p, u, a, j = evaluate_jerk(series, t)
         above, below = p - floor, ceiling - p
-        if above <= tiny and dp < 0.0:
+        if above <= tiny and u < 0.0:
             return LEFT, t, floor
-        if below <= tiny and dp > 0.0:
+        if below <= tiny and u > 0.0:
             return LEFT, t, ceiling
-        step = end
-        if bend > 0.0:
-            step = np.inf
-            if above < np.inf:
-                step = min(step, certified_step(max(above, 0.0), dp, bend))
-            if below < np.inf:
-                step = min(step, certified_step(max(below, 0.0), -dp, bend))
-            # Moving towards a boundary, the root is the safe step; at rest on one or leaving it, `least` is.
-            if min(above, below) <= tiny:
-                step = max(step, least)
+        rest = end - t
+        step = rest
+        if above < np.inf:
+            step = min(step, longest_step(max(above, 0.0), u, a, j, fourth, rest))
+        if below < np.inf:
+            step = min(step, longest_step(max(below, 0.0), -u, -a, -j, fourth, rest))
+        if min(above, below) <= tiny:
+            # At rest on a boundary, or leaving it: a step that cannot pass it by more than rounding.
+            step = max(step, np.sqrt(tiny / (abs(a) + abs(j) + fourth + ROUNDING)))
         t += step
         if t >= end:
             return INSIDE, end, 0.0
@@ -153,12 +166,15 @@ def next_turn(series, t, end):
 
     A root at `t` itself counts; to go on from a root, start a `least_step` later.
     """
-    bend, tiny = slope_bounds(series, end)
+    fourth = fourth_derivative_bound(series, end)
+    _bend, tiny = slope_bounds(series, end)
     for _ in range(MAX_STEPS):
-        _p, dp, ddp = evaluate(series, t)
-        if abs(dp) <= tiny:
+        _p, u, a, j = evaluate_jerk(series, t)
+        if abs(u) <= tiny:
             return t
-        t += max(certified_step(abs(dp), ddp if dp > 0.0 else -ddp, bend), ROUNDING * end)
+        if u < 0.0:
+            u, a, j = -u, -a, -j
+        t += max(longest_step(u, a, j, -fourth, 0.0, end - t), ROUNDING * end)
         if t > end:
             break
     return np.inf
@@ -166,13 +182,13 @@ def next_turn(series, t, end):
 
 @kernel
 def slope_bounds(series, end):
-    """A bound of the third derivative on [0, end], and the rounding of the slope there."""
+    """A bound of the third derivative on [0, end], and the slope that is rounding (of X over a cell, too)."""
     bend, scale = 0.0, 0.0
     for n in range(TERMS - 1, 2, -1):
         bend = bend * end + n * (n - 1) * (n - 2) * abs(series[n])
     for n in range(TERMS - 1, 0, -1):
         scale = scale * end + n * abs(series[n])
-    return max(bend, ROUNDING), ROUNDING * max(scale, ROUNDING)
+    return bend, ROUNDING * max(scale, 1.0)
 
 
 @kernel

@@ -1,11 +1,10 @@
 """The march: one oscillator's motion over whole mesh periods, cell by cell, event by event."""
 
 import numpy as np
-from numba import prange
 
-from ._kernel import kernel, parallel_kernel
+from ._kernel import kernel
 from .cells import COSINE, S0, SINE, SV, SX, V0, VV, VX, WIDTH, X0, XV, XX
-from .closed_form import TERMS, evaluate, expand
+from .closed_form import TERMS, evaluate, expand, fourth_derivative_bound
 from .event_search import INSIDE, UNDECIDED, first_exit, region_at
 
 # Status of a march.
@@ -37,31 +36,13 @@ def next_segment(cells, j, t, x, v, region, series):
         c, s = np.cos(turn), np.sin(turn)
         sine, cosine = sine * c + cosine * s, cosine * c - sine * s
     expand(cells.bases[level, contact], region, x, v, cells.force, sine, cosine, series)
-    bends = cells.bends[level, contact]
-    bend = (
-        bends[0] * abs(x - region)
-        + bends[1] * abs(v)
-        + bends[2] * abs(cells.force)
-        + bends[3] * abs(sine)
-        + bends[4] * abs(cosine)
-    )
     end = 1.0 - t
     x1, v1, _ = evaluate(series, end)
-    spread = series_spread(series, end)
-    outcome, duration, boundary = first_exit(series, region, end, x1, v1, spread, bend)
+    outcome, duration, boundary = first_exit(series, region, end, x1, v1, fourth_derivative_bound(series, end))
     if outcome == INSIDE:
         return outcome, end, x1, v1 / width
     _, v1, _ = evaluate(series, duration)
     return outcome, duration, boundary, v1 / width
-
-
-@kernel
-def series_spread(series, end):
-    """``end^4 max |p''''| / 384``, the distance of p from its cubic Hermite interpolant on [0, end]."""
-    bound = 0.0
-    for n in range(TERMS - 1, 3, -1):
-        bound = bound * end + n * (n - 1) * (n - 2) * (n - 3) * abs(series[n])
-    return bound * end**4 / 384.0
 
 
 @kernel
@@ -133,9 +114,9 @@ def march(cells, x, v, n_periods, series):
     return OK, x, v
 
 
-@parallel_kernel
-def march_starts(cells, starts, n_periods, ends, status):
-    """`march` from each row of `starts` (n, 2) in parallel, filling `ends` (n, 2) and `status` (n,)."""
-    for i in prange(starts.shape[0]):
-        series = np.empty(TERMS)
+@kernel
+def march_starts(first, last, cells, starts, n_periods, ends, status):
+    """`march` from rows `first` to `last` of `starts` (n, 2), filling the same of `ends` (n, 2) and `status` (n,)."""
+    series = np.empty(TERMS)
+    for i in range(first, last):
         status[i], ends[i, 0], ends[i, 1] = march(cells, starts[i, 0], starts[i, 1], n_periods, series)

@@ -9,9 +9,8 @@ Math. Comp. 46 (1986) 135.
 """
 
 import numpy as np
-from numba import prange
 
-from ._kernel import kernel, parallel_kernel
+from ._kernel import kernel
 from .cells import Parameters
 
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
@@ -170,25 +169,15 @@ def integrate(p, x, v, n_periods, rtol, atol, max_steps, points):
 
 
 @kernel
-def integrate_lane(lanes, i, n_periods, rtol, atol, max_steps, points, status, calls):
-    """`integrate` for one lane of a batch, filling row `i` of `points` (n, m, 2), `status` and `calls` (n,)."""
-    s = lanes.scalars[i]
-    p = Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i])
-    x, v = lanes.starts[i, 0], lanes.starts[i, 1]
-    status[i], _steps, calls[i] = integrate(p, x, v, n_periods, rtol, atol, max_steps, points[i])
+def integrate_rows(first, last, lanes, carry, n_periods, rtol, atol, max_steps, points, status, calls):
+    """`integrate` for lanes `first` to `last`, filling the same rows of `points` (n, m, 2), `status` and `calls` (n,).
 
-
-@parallel_kernel
-def integrate_batch(lanes, n_periods, rtol, atol, max_steps, points, status, calls):
-    """All lanes independently, in parallel."""
-    for i in prange(lanes.starts.shape[0]):
-        integrate_lane(lanes, i, n_periods, rtol, atol, max_steps, points, status, calls)
-
-
-@kernel
-def integrate_chain(lanes, n_periods, rtol, atol, max_steps, points, status, calls):
-    """All lanes one after the other, each started where the one before it ended if it is complete."""
-    for i in range(lanes.starts.shape[0]):
-        if i > 0 and status[i - 1] == COMPLETE:
-            lanes.starts[i] = points[i - 1, -1]
-        integrate_lane(lanes, i, n_periods, rtol, atol, max_steps, points, status, calls)
+    With `carry` each lane starts where the one before it ended, if that is complete.
+    """
+    for i in range(first, last):
+        x, v = lanes.starts[i, 0], lanes.starts[i, 1]
+        if carry and i > 0 and status[i - 1] == COMPLETE:
+            x, v = points[i - 1, -1, 0], points[i - 1, -1, 1]
+        s = lanes.scalars[i]
+        p = Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i])
+        status[i], _steps, calls[i] = integrate(p, x, v, n_periods, rtol, atol, max_steps, points[i])

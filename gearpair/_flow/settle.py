@@ -3,9 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import prange
 
-from ._kernel import kernel, parallel_kernel
+from ._kernel import kernel
 from .cells import Parameters, build_cells
 from .closed_form import TERMS
 from .march import ESCAPED, OK, march
@@ -37,7 +36,7 @@ class Lanes(NamedTuple):
 
 
 class Settled(NamedTuple):
-    """What became of each lane; the arrays have one row a lane."""
+    """What became of each lane; the arrays have one row a lane, filled with nan beforehand."""
 
     status: np.ndarray  # (n,) PERIODIC ... NOT_RUN
     period: np.ndarray  # (n,) 0 unless PERIODIC
@@ -113,10 +112,6 @@ def settle(cells, x, v, n_transient, max_period, n_exponent, out, i, series):
     """Follow one motion until it is settled and fill row `i` of `out`."""
     m = np.empty((2, 2))
     out.period[i] = 0
-    out.points[i] = np.nan
-    out.monodromy[i] = np.nan
-    out.extremes[i] = np.nan
-    out.exponents[i] = np.nan
     done = 0
     period = 0
     status = OK
@@ -141,7 +136,8 @@ def settle(cells, x, v, n_transient, max_period, n_exponent, out, i, series):
     if period > 0:
         out.status[i] = PERIODIC
         out.period[i] = period
-        out.monodromy[i] = m
+        for k in range(4):
+            out.monodromy[i, k // 2, k % 2] = m[k // 2, k % 2]
         xs, vs = smallest_point(cells, xs, vs, period, series)
         x, v = xs, vs
         span = period * cells.period
@@ -154,7 +150,7 @@ def settle(cells, x, v, n_transient, max_period, n_exponent, out, i, series):
         out.points[i, k, 0], out.points[i, k, 1] = x, v
         status, x, v = march(cells, x, v, 1, series)
     n = period if period > 0 else n_exponent
-    x, v = out.points[i, 0]
+    x, v = out.points[i, 0, 0], out.points[i, 0, 1]
     status, x, v, low, high, _drive, _coast = extremes(cells, x, v, n, series)
     out.extremes[i, 0], out.extremes[i, 1] = low, high
 
@@ -171,28 +167,16 @@ def smallest_point(cells, x, v, period, series):
 
 
 @kernel
-def settle_lane(lanes, i, max_period, n_exponent, out):
-    """`settle` for one lane of a batch."""
-    s = lanes.scalars[i]
-    cells = build_cells(Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i]))
-    series = np.empty(TERMS)
-    settle(cells, lanes.starts[i, 0], lanes.starts[i, 1], lanes.n_transient[i], max_period, n_exponent, out, i, series)
+def settle_rows(first, last, lanes, chain, max_period, n_exponent, out):
+    """`settle` for lanes `first` to `last`, which form chains of `chain` lanes each (1: every lane for itself).
 
-
-@parallel_kernel
-def settle_batch(lanes, first, last, max_period, n_exponent, out):
-    """Lanes `first` to `last` independently, in parallel."""
-    for i in prange(first, last):
-        settle_lane(lanes, i, max_period, n_exponent, out)
-
-
-@kernel
-def settle_chain(lanes, first, last, max_period, n_exponent, out):
-    """Lanes `first` to `last` one after the other, each started where the one before it ended.
-
-    After a motion that did not stay bounded the next lane keeps its own start.
+    In a chain each lane but the first starts where the one before it ended, if that motion stayed bounded.
     """
+    series = np.empty(TERMS)
     for i in range(first, last):
-        if i > 0 and out.status[i - 1] < GONE:
-            lanes.starts[i] = out.final[i - 1]
-        settle_lane(lanes, i, max_period, n_exponent, out)
+        x, v = lanes.starts[i, 0], lanes.starts[i, 1]
+        if i % chain != 0 and out.status[i - 1] < GONE:
+            x, v = out.final[i - 1, 0], out.final[i - 1, 1]
+        s = lanes.scalars[i]
+        cells = build_cells(Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i]))
+        settle(cells, x, v, lanes.n_transient[i], max_period, n_exponent, out, i, series)

@@ -10,13 +10,15 @@ from gearpair.plotting.diagrams import (
     bifurcation_diagram,
     exponents,
     extremes,
+    mark_boundaries,
     motion_shares,
     range_lanes,
     range_strips,
 )
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
-from gearpair.plotting.style import MOTION_COLOURS, STYLE, motion_colour
+from gearpair.plotting.reproduction import coverage_by_phase, reached_motions, score_ranking
+from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.teeth import (
     compliance_stack,
     contact_ratio_cloud,
@@ -33,6 +35,7 @@ from gearpair.plotting.waves import harmonics, stiffness_wave
 __all__ = [
     "MOTION_COLOURS",
     "STYLE",
+    "add_motion_legend",
     "attractor_points",
     "basins",
     "bifurcation_curves",
@@ -40,6 +43,7 @@ __all__ = [
     "branches",
     "compliance_stack",
     "contact_ratio_cloud",
+    "coverage_by_phase",
     "exponents",
     "extremes",
     "finite_element_check",
@@ -48,6 +52,7 @@ __all__ = [
     "harmonics",
     "impact_states",
     "load_shares",
+    "mark_boundaries",
     "mesh_curves",
     "motion_colour",
     "motion_shares",
@@ -58,6 +63,8 @@ __all__ = [
     "portrait",
     "range_lanes",
     "range_strips",
+    "reached_motions",
+    "score_ranking",
     "spectrum",
     "stiffness_trends",
     "stiffness_wave",

@@ -19,7 +19,7 @@ from gearpair.plotting.style import (
     motion_colour,
     new_axes,
 )
-from gearpair.published import Range
+from gearpair.published import Boundary, Range
 from gearpair.ranges import MotionRange, motion_names, motion_order, motion_ranges, swept_parameter
 
 LETTER = 0.0115  # share of the axis that a letter of a bar's name takes
@@ -73,6 +73,27 @@ def _section_points(sweep: xr.Dataset, chosen: np.ndarray) -> np.ndarray:
     repeats = np.arange(x.shape[1]) >= np.where(period > 0, period, x.shape[1])[:, None]
     x[repeats] = np.nan
     return x
+
+
+def mark_boundaries(boundaries: Iterable[Boundary], ax: Axes) -> Axes:
+    """Dotted vertical lines where the article puts its boundaries.
+
+    Parameters
+    ----------
+    boundaries : iterable of Boundary
+        As `gearpair.published.boundaries` gives them.
+    ax : Axes
+        Of a diagram over their parameter; boundaries outside its limits are left out.
+
+    Returns
+    -------
+    Axes
+    """
+    left, right = ax.get_xlim()
+    for boundary in boundaries:
+        if left <= boundary.value <= right:
+            ax.axvline(boundary.value, color=BOUNDARY, linewidth=0.9, linestyle=(0, (1, 1.6)), zorder=-1)
+    return ax
 
 
 def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:

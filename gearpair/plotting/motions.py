@@ -189,7 +189,7 @@ def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: s
     poincare_section(motion, axes[2], colour=colour)
     axes[2].set(xlim=axes[1].get_xlim(), ylim=axes[1].get_ylim())
     spectrum(spectrum_of(motion, window="boxcar" if period else "hann"), axes[3], period=period, colour=colour)
-    axes[0].set_title(title)
+    axes[0].set_title(title, loc="left")
     return list(axes)
 
 

@@ -153,14 +153,14 @@ def accept_outputs(book: Book, *, progress: bool = True) -> list[str]:
     texts = {}
     for chapter in book.chapters():
         executed = execute(chapter, scratch / chapter.path.name, progress=progress)
-        texts[chapter] = nbformat.writes(stable_notebook(chapter.path, executed), version=4) + "\n"
-    changed = [chapter for chapter, text in texts.items() if chapter.path.read_text(encoding="utf-8") != text]
-    for chapter in changed:
-        scratch_file = scratch / chapter.path.name
-        scratch_file.write_text(texts[chapter], encoding="utf-8")
-        os.replace(scratch_file, chapter.path)
+        texts[chapter.path] = nbformat.writes(stable_notebook(chapter.path, executed), version=4) + "\n"
+    changed = [path for path, text in texts.items() if path.read_text(encoding="utf-8") != text]
+    for path in changed:
+        scratch_file = scratch / path.name
+        scratch_file.write_text(texts[path], encoding="utf-8")
+        os.replace(scratch_file, path)
     shutil.rmtree(scratch)
-    return [chapter.name for chapter in changed]
+    return [path.stem for path in changed]
 
 
 def stable_notebook(source: Path, executed: nbformat.NotebookNode) -> nbformat.NotebookNode:

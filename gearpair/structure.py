@@ -1,0 +1,153 @@
+"""The bifurcation structure of a set of branches, as ranges of coexistence and as tables."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from gearpair.branches import Bifurcation, Branch
+from gearpair.ranges import IMPACT_NAMES
+from gearpair.tables import Table
+
+
+def coexistence(
+    branches: list[Branch], lower: float, upper: float, *, shortest: float = 0.0
+) -> list[tuple[float, float, tuple[str, ...]]]:
+    """Which stable orbits of a set of branches exist together, range by range.
+
+    Parameters
+    ----------
+    branches : list of Branch
+        Along one parameter.
+    lower, upper : float
+        The range of the parameter.
+    shortest : float
+        Ranges narrower than this are left out.
+
+    Returns
+    -------
+    list of (float, float, tuple of str)
+        Start, end, and the stable orbits there, such as ``("period 1 double", "period 2 single_drive")``.
+        Orbits of one period and impact state on one branch count once each.
+    """
+    pieces = [piece for branch in branches for piece in _stable_pieces(branch) if piece[1] - piece[0] >= shortest]
+    edges = sorted({lower, upper, *(v for low, high, _ in pieces for v in (low, high) if lower < v < upper)})
+    ranges: list[tuple[float, float, tuple[str, ...]]] = []
+    for left, right in zip(edges, edges[1:], strict=False):
+        middle = 0.5 * (left + right)
+        names = tuple(sorted(name for low, high, name in pieces if low <= middle <= high))
+        if ranges and ranges[-1][2] == names:
+            ranges[-1] = (ranges[-1][0], right, names)
+        else:
+            ranges.append((left, right, names))
+    return [each for each in ranges if each[1] - each[0] >= shortest]
+
+
+def _stable_pieces(branch: Branch) -> list[tuple[float, float, str]]:
+    """Parameter ranges of the stable orbits of a branch, cut where the impact state changes or the branch turns."""
+    states = branch.impact_states()
+    pieces: list[tuple[float, float, str]] = []
+    start = None
+    for i in range(len(branch.values) + 1):
+        inside = i < len(branch.values) and branch.stable[i]
+        if start is not None and (not inside or states[i] != states[start] or _turns(branch, start, i)):
+            ends = [_edge(branch, start - 1, start), _edge(branch, i - 1, i)]
+            pieces.append((min(ends), max(ends), f"period {branch.period} {states[start]}"))
+            start = None
+        if inside and start is None:
+            start = i
+    return pieces
+
+
+def _turns(branch: Branch, start: int, i: int) -> bool:
+    """Whether the branch turns back in the parameter at orbit ``i - 1``, after `start`."""
+    steps = np.diff(branch.values[max(i - 2, start) : i + 1])
+    return len(steps) == 2 and steps[0] * steps[1] < 0.0
+
+
+def _edge(branch: Branch, i: int, j: int) -> float:
+    """The bifurcation's value between orbits `i` and `j` of a branch, or the branch's own end."""
+    if i < 0 or j >= len(branch.values):
+        return float(branch.values[max(i, 0) if j >= len(branch.values) else j])
+    low, high = sorted(branch.values[[i, j]].tolist())
+    margin = high - low
+    near = [b.value for b in branch.bifurcations if low - margin <= b.value <= high + margin]
+    return min(near, key=lambda value: abs(value - 0.5 * (low + high))) if near else 0.5 * (low + high)
+
+
+def bifurcation_table(branches: Iterable[Branch], *, digits: int = 5) -> Table:
+    """Every bifurcation of a set of branches, by rising parameter.
+
+    Parameters
+    ----------
+    branches : iterable of Branch
+        Along one parameter.
+    digits : int
+        Decimals of the parameter.
+
+    Returns
+    -------
+    Table
+        Kind, value, the orbit's period, contacts per cycle on the drive and coast side (before and after
+        a grazing), and impact state.
+    """
+    found = sorted((b for branch in branches for b in branch.bifurcations), key=lambda b: (b.value, b.kind))
+    rows = [[b.kind, f"{b.value:.{digits}f}", b.period, _contacts(b), IMPACT_NAMES[b.impact_state]] for b in found]
+    return Table(["kind", found[0].parameter if found else "value", "period", "contacts", "impact state"], rows)
+
+
+def _contacts(bifurcation: Bifurcation) -> str:
+    """Contacts per cycle (drive + coast), on both sides of a grazing."""
+    first, second = (f"{drive} + {coast}" for drive, coast in bifurcation.contacts)
+    return first if first == second else f"{first} | {second}"
+
+
+def coexistence_table(
+    branches: Sequence[Branch], lower: float, upper: float, *, shortest: float, digits: int = 4
+) -> Table:
+    """Which stable orbits of a set of branches exist together, one row a range; see `coexistence`."""
+    rows = []
+    for low, high, names in coexistence(list(branches), lower, upper, shortest=shortest):
+        counted = Counter(names)
+        words = [name if n == 1 else f"{n} of {name}" for name, n in counted.items()]
+        text = ", ".join(_readable(word) for word in words) or "none up to the longest period followed"
+        rows.append([f"{low:.{digits}f}", f"{high:.{digits}f}", text])
+    return Table(["from", "to", "stable orbits"], rows)
+
+
+def _readable(name: str) -> str:
+    words = name.split()
+    state = IMPACT_NAMES[words[-1]]
+    return " ".join(words[:-1]) + f" ({state})"
+
+
+def cascade_table(cascades: Iterable[Sequence[Bifurcation]], *, digits: int = 6) -> Table:
+    """Period-doubling sequences, one row each: the first flips and the ratios of the gaps between them.
+
+    Parameters
+    ----------
+    cascades : iterable of sequences of Bifurcation
+        Of `doubling_cascade`.
+    digits : int
+        Decimals of the parameter.
+
+    Returns
+    -------
+    Table
+        The sequence of periods, its flips, and the ratios of successive gaps (4.669 in the limit).
+    """
+    rows = []
+    for flips in cascades:
+        values = [flip.value for flip in flips]
+        gaps = np.diff(values)
+        ratios = gaps[:-1] / gaps[1:]
+        rows.append(
+            [
+                " ".join(str(flip.period) for flip in flips),
+                " ".join(f"{value:.{digits}f}" for value in values),
+                " ".join(f"{ratio:.2f}" for ratio in ratios),
+            ]
+        )
+    return Table(["periods", "flips at", "ratios of the gaps"], rows)

@@ -1,0 +1,107 @@
+"""Readings of the article and ways to draw its diagrams."""
+
+import numpy as np
+import pytest
+
+import gearpair as gp
+from gearpair import hypotheses as hy
+
+
+def test_the_enumeration_is_complete_and_without_repeats():
+    everything = hy.all_hypotheses()
+    assert len(everything) == len(set(everything)) == 2 * 2 * 4 * 2 * 2 * 2
+    assert hy.PRINTED in everything and hy.SWAPPED in everything
+    assert len({str(h) for h in everything}) == len(everything)
+
+
+def test_the_printed_reading_is_the_librarys_default():
+    assert hy.PRINTED.oscillator(0.9, 0.01) == gp.Oscillator(mesh_frequency=0.9, damping_ratio=0.01)
+
+
+def test_the_swapped_reading_is_the_librarys():
+    assert hy.SWAPPED.oscillator() == gp.Oscillator(stiffness=gp.StiffnessWave.rectangular(reading="swapped"))
+
+
+@pytest.mark.parametrize("hypothesis", hy.all_hypotheses()[::7], ids=str)
+def test_the_equation_is_the_one_that_the_words_say(hypothesis):
+    osc = hypothesis.oscillator(1.3, 0.02)
+    stiff = 0.68 if hypothesis.stiff_for == "eps - 1" else 0.32
+    assert osc.damping_ratio == (0.02 if hypothesis.damping == "2 zeta" else 0.01)
+    amplitude = 0.2 * (1.3**2 if hypothesis.force == "Omega^2" else 1.0)
+    tau = np.linspace(0.0, osc.period, 50)
+    expected = 0.1 + amplitude * np.sin(1.3 * tau + np.radians(hypothesis.phase))
+    np.testing.assert_allclose(osc.force(tau), expected, atol=1e-12)
+    longest = osc.stiffness.durations[np.argmax(osc.stiffness.levels)]
+    assert longest == pytest.approx(stiff)
+    assert (osc.stiffness.levels[0] > osc.stiffness.levels[1]) == (hypothesis.first == "stiff")
+    ratio = max(osc.stiffness.levels) / min(osc.stiffness.levels)
+    assert ratio == pytest.approx(1.116 / 0.586)
+    if hypothesis.mean == "one":
+        assert osc.stiffness.mean == pytest.approx(1.0)
+
+
+def test_soft_first_is_stiff_first_seen_later():
+    """Beginning with the other interval is a shift of time by 0.32 of the period, so of the phase by 115.2 degrees."""
+    stiff_first = hy.Hypothesis(stiff_for="2 - eps", phase=30.0).oscillator(1.0)
+    soft_first = hy.Hypothesis(stiff_for="2 - eps", first="soft", phase=30.0 + 360.0 * 0.32).oscillator(1.0)
+    seen = gp.trajectory(stiff_first, 0.3, 0.1, 4, samples_per_period=25)
+    later = gp.trajectory(soft_first, seen.x[8], seen.v[8], 3, samples_per_period=25)
+    np.testing.assert_allclose(later.x, seen.x[8:84], rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("seeding", ["up", "down", "restart"])
+def test_many_sweeps_side_by_side_are_the_sweeps_one_by_one(seeding):
+    protocol = hy.Protocol(seeding, None, 1.0, 0.0)
+    side_by_side = hy.periods([hy.PRINTED, hy.SWAPPED], protocol, "mesh_frequency", 21)
+    values = hy.axis("mesh_frequency", 21)
+    order = values[::-1] if seeding == "down" else values
+    for row, hypothesis in zip(side_by_side, (hy.PRINTED, hy.SWAPPED), strict=True):
+        alone = gp.sweep(
+            hypothesis.oscillator(), "mesh_frequency", order, seeding="restart" if seeding == "restart" else "carry",
+            max_period=hy.MAX_PERIOD, n_exponent=20, n_samples=hy.MAX_PERIOD,
+        ).sortby("mesh_frequency")  # fmt: skip
+        np.testing.assert_array_equal(row, alone.period.values)
+
+
+def test_trials_are_ranked_and_one_per_pair():
+    done = hy.trials([hy.PRINTED, hy.SWAPPED], hy.all_protocols([(0.0, 0.0), (1.0, 0.0)]), 21)
+    assert len(done) == 2 * 3 * 2
+    totals = [t.total for t in done]
+    assert totals == sorted(totals, reverse=True)
+    ranked = hy.ranking(done)
+    assert {r.hypothesis for r in ranked} == {hy.PRINTED, hy.SWAPPED}
+    for entry in ranked:
+        own = [t.total for t in done if t.hypothesis == entry.hypothesis]
+        assert entry.best.total == max(own)
+        assert entry.mean == pytest.approx(np.mean(own))
+
+
+def test_many_starts_find_both_period_one_and_period_three():
+    """At zeta = 0.0075 the swapped reading has a period-1 and a period-3 motion; zeta = 0.02 has period 1 alone."""
+    swapped, printed = hy.reached([hy.SWAPPED, hy.PRINTED], "damping_ratio", 5)
+    assert {"1", "3"} <= swapped.motions[1]
+    assert swapped.within("D5") == 1.0
+    assert swapped.coverage > printed.coverage
+
+
+def test_random_tables_repeat_with_their_seed_and_differ_without():
+    first = hy.random_tables("mesh_frequency", 5, seed=3)
+    assert first == hy.random_tables("mesh_frequency", 5, seed=3)
+    assert first != hy.random_tables("mesh_frequency", 5, seed=4)
+    assert all(s.total < 0.99 for s in first)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: hy.Hypothesis(stiff_for="eps"), "stiff_for must be one of"),
+        (lambda: hy.Hypothesis(phase=float("nan")), "phase must be"),
+        (lambda: hy.Protocol("sideways"), "seeding must be one of"),
+        (lambda: hy.Protocol("up", 0), "n_discarded must be"),
+        (lambda: hy.axis("zeta", 3), "'mesh_frequency' or 'damping_ratio'"),
+        (lambda: hy.SWAPPED.along("contact_ratio", [1.5]), "'mesh_frequency' or 'damping_ratio'"),
+    ],
+)
+def test_bad_input_is_refused(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()

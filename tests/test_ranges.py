@@ -1,0 +1,147 @@
+"""Ranges of motion, representatives, shares, and the article's table beside them."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import gearpair as gp
+from gearpair import published
+
+OSC = gp.Oscillator()
+
+
+def made_up(motions, values, parameter="mesh_frequency"):
+    """A sweep with the given periods; 0 stands for chaos."""
+    periods = np.array(motions)
+    return xr.Dataset(
+        {
+            "status": (parameter, np.where(periods > 0, "periodic", "aperiodic")),
+            "period": (parameter, periods),
+            "x": ((parameter, "sample"), np.zeros((len(periods), 4))),
+        },
+        {parameter: values},
+    )
+
+
+UP = made_up([1, 1, 1, 2, 0, 0, 3, 3], np.arange(8.0))
+DOWN = made_up([3, 3, 3, 0, 2, 2, 1, 1], np.arange(8.0)[::-1])
+
+
+def test_runs_do_not_depend_on_the_direction():
+    expected = [(0, 2, "period 1"), (3, 3, "period 2"), (4, 5, "chaos"), (6, 7, "period 3")]
+    assert [(r.lower, r.upper, r.motion) for r in gp.motion_ranges(UP)] == expected
+    flipped = UP.isel(mesh_frequency=slice(None, None, -1))
+    assert gp.motion_ranges(flipped) == gp.motion_ranges(UP)
+
+
+def test_what_two_sweeps_saw_is_joined():
+    """Each end is the one that some sweep followed the motion to; chaos has none."""
+    found = [(r.lower, r.upper, r.motion) for r in gp.found_ranges(UP, DOWN)]
+    assert found == [(0, 2, "period 1"), (2, 3, "period 2"), (5, 7, "period 3")]
+    assert [r.motion for r in gp.found_ranges(UP, DOWN, narrowest=1.5)] == ["period 1", "period 3"]
+
+
+def test_sweeps_over_two_parameters_are_not_joined():
+    with pytest.raises(ValueError, match="over one parameter, got mesh_frequency, damping_ratio"):
+        gp.found_ranges(UP, made_up([1], [0.1], "damping_ratio"))
+    with pytest.raises(ValueError, match="a result over v, x"):
+        gp.motion_ranges(gp.basins(OSC, [0.0, 1.0], [0.0, 1.0]))
+
+
+def test_representatives_are_the_motions_named():
+    result = gp.sweep(OSC, "mesh_frequency", [0.7, 0.71, 0.72, 0.78, 1.2, 1.21, 1.22])
+    shown = gp.representatives(OSC, result, motions=["period 2", "period 17", "chaos"], near={"chaos": 1.219})
+    assert list(shown) == ["period 2", "chaos"]  # no period 17 there
+    assert shown["period 2"].oscillator.mesh_frequency == 0.71
+    assert (shown["chaos"].oscillator.mesh_frequency, shown["chaos"].status) == (1.22, "aperiodic")
+
+
+def test_a_chaotic_transient_represents_nothing():
+    """A motion that a short transient took for chaos is followed again and turned down when it settles."""
+    osc = OSC.replace(damping_ratio=0.0075)
+    result = gp.sweep(osc, "mesh_frequency", [0.7], x=0.0, v=0.0)
+    result["status"][:] = "aperiodic"
+    assert gp.representatives(osc, result, motions=["chaos"]) == {}
+
+
+def test_following_both_ways_keeps_to_one_motion():
+    """The large period 1 of the baseline lives up to about 0.92, where the standard start finds periods 2 to 8."""
+    state = gp.steady_state(OSC, -2.0, 1.5)
+    assert (state.period, state.impact_state) == (1, "double")
+    falling, rising = gp.follow(state, "mesh_frequency", [0.68, 0.69, 0.71, 0.72])
+    assert falling.mesh_frequency.values.tolist() == [0.69, 0.68]
+    assert rising.mesh_frequency.values.tolist() == [0.71, 0.72]
+    life = gp.range_of(state, "mesh_frequency", np.arange(0.6, 1.0, 0.004))
+    assert life.motion == "period 1"
+    assert 0.90 < life.upper < 0.93
+
+
+def test_a_jump_to_another_motion_of_the_same_period_ends_a_life():
+    """The large period 2 ends above 1.05, but the sweep falls onto the small period 2 that lives there."""
+    state = gp.steady_state(OSC.replace(mesh_frequency=1.3), -2.0, 0.0)
+    values = np.arange(1.04, 1.3, 0.002)
+    below = gp.follow(state, "mesh_frequency", values)[0]
+    assert below.period.values[-1] == 2 and below.x_max.values[-1] < 1.5 < state.x_max
+    assert 1.06 < gp.range_of(state, "mesh_frequency", values).lower < 1.1
+
+
+def test_shares_count_the_starts():
+    shares = gp.motion_shares(OSC, "damping_ratio", [0.02], [-2.0, 0.0, 1.0], [0.0])
+    assert shares.motion.values.tolist() == ["period 1", "period 2"]
+    assert shares.share.values.tolist() == [[1 / 3, 2 / 3]]
+
+
+def test_names_of_attractors_leave_out_small_basins():
+    plane = gp.basins(OSC, np.linspace(-4, 4, 17), np.linspace(-3, 3, 13))
+    names = gp.attractor_names(plane, 0.1)
+    assert names == ["period 1, double-sided", "period 2, single-sided"]
+    assert len(gp.attractor_names(plane)) > 2
+
+
+STATED = (
+    published.Range("A", "mesh_frequency", 0.0, 2.0, "periodic", 1),
+    published.Range("B", "mesh_frequency", 2.0, 4.0, "complex"),
+    published.Range("C", "mesh_frequency", 4.0, 8.0, "periodic", 2),
+)
+FOUND = (
+    gp.MotionRange(0.0, 1.5, "period 1"),
+    gp.MotionRange(4.5, 6.5, "period 2"),
+    gp.MotionRange(6.0, 8.0, "period 4"),
+)
+
+
+def test_agreement_is_the_share_of_the_published_range():
+    rows = gp.compare_ranges(STATED, FOUND, digits=1).rows
+    assert [row[-1] for row in rows] == ["75%", "–", "50%"]
+    assert rows[2][3] == "period 2 (4.5–6.5), period 4 (6.0–8.0)"
+    assert rows[1][3] == "none this wide"
+
+
+def test_boundaries_are_matched_by_the_same_change():
+    stated = [published.Boundary("B", "mesh_frequency", 2.0, "crisis"), published.Boundary("C", "mesh_frequency", 4.0)]
+    rows = gp.compare_boundaries(stated, STATED, FOUND, gap=1.0, digits=2).rows
+    assert rows[0] == ("B", "2.00", "period 1 to complex", "crisis", "1.50", "-0.50")
+    assert rows[1] == ("C", "4.00", "complex to period 2", "", "4.50", "+0.50")
+    rows = gp.compare_boundaries(stated, STATED, FOUND[1:], gap=1.0).rows
+    assert rows[0][-2:] == ("none", "–")
+    assert gp.compare_boundaries(stated, STATED, [], gap=1.0).rows[0][-2:] == ("none", "–")
+
+
+def test_attractors_are_counted_beside_the_published_motion():
+    plane = gp.basins(OSC, np.linspace(-4, 4, 9), np.linspace(-3, 3, 7))
+    rows = gp.compare_attractors(published.ranges("damping_ratio"), {0.02: plane, 0.03: plane}, 0.1, digits=2).rows
+    assert rows[0][:3] == ("0.02", "D5", "period 1") and rows[1][:3] == ("0.03", "–", "–")
+    assert rows[0][3] == "period 1, double-sided; period 2, single-sided"
+
+
+def test_a_table_is_aligned_and_escaped():
+    table = gp.Table(["name", "value"], [["a < b", "-1.50"], ["c", "–"]])
+    assert repr(table).splitlines() == ["name   value", "------------", "a < b  -1.50", "c          –"]
+    html = table._repr_html_()
+    assert "a &lt; b" in html and '<td style="text-align: right">-1.50</td>' in html
+    with pytest.raises(ValueError, match="row 1 of the table must have 2 cells, got 1"):
+        gp.Table(["a", "b"], [[1, 2], [3]])
+
+
+def test_a_table_without_rows_keeps_its_headings():
+    assert repr(gp.Table(["a", "b"], [])).splitlines()[0] == "a  b"
