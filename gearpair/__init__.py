@@ -44,9 +44,6 @@ from gearpair.sweeps import sweep
 from gearpair.tables import Table
 
 __all__ = [
-    "bifurcation_table",
-    "cascade_table",
-    "coexistence_table",
     "Bifurcation",
     "BifurcationCurve",
     "Branch",
@@ -70,7 +67,10 @@ __all__ = [
     "attractor_names",
     "attractor_states",
     "basins",
+    "bifurcation_table",
+    "cascade_table",
     "coexistence",
+    "coexistence_table",
     "compare_attractors",
     "compare_boundaries",
     "compare_ranges",

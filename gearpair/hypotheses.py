@@ -7,7 +7,7 @@ the other, scored by `gearpair.reproduction.score`.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from itertools import product
 from typing import Literal
 
@@ -20,6 +20,7 @@ from gearpair.batches import SettleSettings, settle_lanes
 from gearpair.oscillator import Oscillator
 from gearpair.reproduction import Score, label, published_labels, score
 from gearpair.stiffness import StiffnessWave
+from gearpair.tables import Table
 
 SHAPES = {0.0: "sin", 90.0: "cos", 180.0: "-sin", 270.0: "-cos"}
 MAX_PERIOD = 12  # longer ones count as no period: nobody reads them off a diagram
@@ -271,6 +272,28 @@ def ranking(done: Iterable[Trial]) -> list[Ranked]:
         for h, each in grouped.items()
     ]
     return sorted(ranked, key=lambda entry: -entry.mean)
+
+
+def worth(ranked: Sequence[Ranked]) -> Table:
+    """What each single choice is worth: the best place and the mean score of the hypotheses that make it.
+
+    Parameters
+    ----------
+    ranked : sequence of Ranked
+        Of `ranking`, over `all_hypotheses`.
+
+    Returns
+    -------
+    Table
+        One row for each value of each field of `Hypothesis`.
+    """
+    rows = []
+    for field in fields(Hypothesis):
+        for value in dict.fromkeys(getattr(entry.hypothesis, field.name) for entry in ranked):
+            places = [i for i, entry in enumerate(ranked) if getattr(entry.hypothesis, field.name) == value]
+            mean = float(np.mean([ranked[i].mean for i in places]))
+            rows.append([field.name.replace("_", " "), SHAPES.get(value, value), places[0] + 1, f"{mean:.2f}"])
+    return Table(["choice", "value", "best place", "mean score"], rows)
 
 
 STARTS = tuple((x, v) for x in (-1.0, 0.0, 1.0, 2.0) for v in (-0.6, 0.0, 0.6))

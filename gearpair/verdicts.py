@@ -21,7 +21,7 @@ from gearpair.hypotheses import Hypothesis, Reached, Trial, axis
 from gearpair.initial_conditions import basins
 from gearpair.integrators import runge_kutta_sweep
 from gearpair.orbits import periodic_orbit
-from gearpair.reproduction import label
+from gearpair.reproduction import REACH, label
 from gearpair.spurpair import SpurPair
 from gearpair.sweeps import sweep
 from gearpair.tables import Table
@@ -218,6 +218,60 @@ def boundary_items(
                 Verdict(boundary.item, "not drawn" if one is None else f"drawn at {one:.{digits}f}", text, word)
             )
     return found
+
+
+def boundary_table(
+    printed: Sequence[Trial], others: Sequence[Trial], best: Sequence[Trial], bifurcations: Sequence[Bifurcation]
+) -> Table:
+    """Every published boundary: where the printed reading, all others, and the best one put it.
+
+    Parameters
+    ----------
+    printed, others, best : sequence of Trial
+        The nearest boundary between the same two motions in any diagram counts.
+    bifurcations : sequence of Bifurcation
+        Of the best reading; the nearest fold or flip within a tenth of the axis, with its distance from the published
+        value.
+    """
+    rows = []
+    for boundary in published.FREQUENCY_BOUNDARIES + published.DAMPING_BOUNDARIES:
+        digits = 3 if boundary.parameter == "mesh_frequency" else 5
+        drawn = [drawn_boundary(trials, boundary) for trials in (printed, others, best)]
+        texts = ["–" if value is None else f"{value:.{digits}f}" for value in drawn]
+        ends = axis(boundary.parameter, 2)
+        change = nearest(boundary.value, [b for b in bifurcations if b.parameter == boundary.parameter])
+        if change is not None and abs(change.value - boundary.value) > REACH * (ends[1] - ends[0]):
+            change = None
+        named = "–" if change is None else f"{change.kind} of period {change.period} at {change.value:.5f}"
+        away = "–" if change is None else f"{change.value - boundary.value:+.{digits + 1}f}"
+        rows.append([boundary.item, f"{boundary.value:.{digits}f}", *texts, named, away])
+    columns = ["item", "published", "printed", "others", "best", "bifurcation of the best", "distance"]
+    return Table(columns, rows)
+
+
+def nearness(parameter: str, bifurcations: Iterable[Bifurcation], n: int = 20_000) -> tuple[float, float]:
+    """How near the published boundaries lie to folds and flips, and how often boundaries at random lie as near.
+
+    Parameters
+    ----------
+    parameter : {"mesh_frequency", "damping_ratio"}
+    bifurcations : iterable of Bifurcation
+    n : int
+        Random tables.
+
+    Returns
+    -------
+    distance, chance : float
+        The mean distance of a published boundary from the nearest fold or flip, and the fraction of tables with
+        boundaries anywhere on the axis whose mean distance is no larger.
+    """
+    changes = np.array([b.value for b in bifurcations if b.parameter == parameter and b.kind != "grazing"])
+    stated = np.array([boundary.value for boundary in published.boundaries(parameter)])
+    ends = axis(parameter, 2)
+    random = np.random.default_rng(0).uniform(ends[0], ends[1], (n, len(stated)))
+    distance = float(np.abs(stated[:, None] - changes).min(axis=1).mean())
+    chance = float(np.mean(np.abs(random[:, :, None] - changes).min(axis=2).mean(axis=1) <= distance))
+    return distance, chance
 
 
 def drawn_boundary(trials: Iterable[Trial], boundary: published.Boundary) -> float | None:

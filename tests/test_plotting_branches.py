@@ -3,6 +3,7 @@
 import matplotlib
 import numpy as np
 import pytest
+from matplotlib.legend import Legend
 
 import gearpair as gp
 from gearpair import plotting
@@ -35,7 +36,8 @@ def test_each_bifurcation_has_its_mark(branch):
     marks = [line for line in ax.lines if line.get_marker() in ("^", "o", "D")]
     shown = sorted(float(line.get_xdata()[0]) for line in marks)
     assert shown == sorted(b.value for b in branch.bifurcations)
-    assert {text.get_text() for text in ax.get_legend().get_texts()} == {b.kind for b in branch.bifurcations}
+    key = next(child for child in ax.get_children() if isinstance(child, Legend))
+    assert {text.get_text() for text in key.get_texts()} == {b.kind for b in branch.bifurcations}
 
 
 def test_periods_can_be_chosen(branch):
@@ -48,3 +50,18 @@ def test_a_curve_is_drawn_as_computed(branch):
     ax = plotting.bifurcation_curves([curve])
     assert np.array_equal(np.array(ax.lines[0].get_data()).T, curve.values)
     assert ax.lines[0].get_linestyle() == "--"
+
+
+def test_a_period_map_has_one_pixel_for_each_motion():
+    """Each pixel has the colour of its motion's name."""
+    from matplotlib.colors import to_rgb
+
+    axes = {"damping_ratio": [0.05, 0.1], "mesh_frequency": [0.7, 1.2, 1.7]}
+    grid = gp.parameter_map(gp.Oscillator(), axes)
+    ax = plotting.period_map(grid)
+    pixels = ax.images[0].get_array()
+    for i in range(2):
+        for j in range(3):
+            name = gp.motion_name(str(grid.status.values[i, j]), int(grid.period.values[i, j]))
+            assert np.allclose(pixels[i, j], to_rgb(plotting.motion_colour(name)))
+    assert ax.get_xlim() == pytest.approx((0.45, 1.95)) and ax.get_ylim() == pytest.approx((0.025, 0.125))

@@ -15,6 +15,7 @@ from gearpair.plotting.diagrams import (
     range_lanes,
     range_strips,
 )
+from gearpair.plotting.maps import period_map
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
 from gearpair.plotting.reproduction import coverage_by_phase, reached_motions, score_ranking
@@ -58,6 +59,7 @@ __all__ = [
     "motion_shares",
     "pair_stiffness",
     "per_width",
+    "period_map",
     "phase_portrait",
     "poincare_section",
     "portrait",

@@ -7,7 +7,9 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 
 from gearpair.bifurcation_curves import BifurcationCurve
 from gearpair.branches import Branch
@@ -58,12 +60,19 @@ def branches(
         ax.set_xlabel(LABELS[branch.parameter])
     ax.set_ylabel(LABELS["section"])
     handles = [Line2D([], [], marker=MARKERS[k], linestyle="", color="#555555", label=k) for k in MARKERS if k in kinds]
-    before = ax.get_legend()
     if handles:
-        ax.legend(handles=handles, loc="upper right", ncols=3, handletextpad=0.1, columnspacing=0.8)
-    if before is not None:
-        ax.add_artist(before)
+        _add_key(ax, handles)
     return ax
+
+
+def _add_key(ax: Axes, handles: list[Line2D]) -> None:
+    """A key inside the axes, beside the legend of motions that may stand above them."""
+    names = [str(handle.get_label()) for handle in handles]
+    ax.add_artist(
+        Legend(
+            ax, handles, names, loc="upper right", ncols=len(handles), framealpha=0.9, edgecolor="none", frameon=True
+        )
+    )
 
 
 def _runs(stable: np.ndarray, wanted: bool) -> np.ndarray:
@@ -77,7 +86,9 @@ def _runs(stable: np.ndarray, wanted: bool) -> np.ndarray:
     return widened
 
 
-def bifurcation_curves(curves: Iterable[BifurcationCurve], ax: Axes | None = None) -> Axes:
+def bifurcation_curves(
+    curves: Iterable[BifurcationCurve], ax: Axes | None = None, *, colour: str | None = None
+) -> Axes:
     """Curves of folds (solid), flips (dashed) and grazings (dotted) in the plane of two parameters.
 
     Parameters
@@ -85,22 +96,27 @@ def bifurcation_curves(curves: Iterable[BifurcationCurve], ax: Axes | None = Non
     curves : iterable of BifurcationCurve
         In the same two parameters.
     ax : Axes, optional
+        For example that of a `period_map`, to draw over it.
+    colour : str, optional
+        Of all curves; that of the orbit's period when not given.
 
     Returns
     -------
     Axes
-        With one line for each curve, coloured by the orbit's period.
+        With one line for each curve.
     """
     ax = new_axes(ax)
-    seen: dict[tuple[str, int], None] = {}
-    for curve in curves:
-        colour = motion_colour(f"period {curve.period}")
-        ax.plot(*curve.values.T, color=colour, linestyle=DASHES[curve.kind])
+    drawn = list(curves)
+    for curve in drawn:
+        shade = colour or motion_colour(f"period {curve.period}")
+        halo = [withStroke(linewidth=2.4, foreground="white")]
+        ax.plot(*curve.values.T, color=shade, linestyle=DASHES[curve.kind], linewidth=1.1, path_effects=halo)
         ax.set(xlabel=LABELS[curve.parameters[0]], ylabel=LABELS[curve.parameters[1]])
-        seen[curve.kind, curve.period] = None
-    kinds = [kind for kind in DASHES if any(kind == k for k, _ in seen)]
-    periods = sorted({period for _, period in seen})
-    handles = [Line2D([], [], color=INK, linestyle=DASHES[kind], label=kind) for kind in kinds]
-    handles += [Line2D([], [], color=motion_colour(f"period {p}"), label=f"period {p}") for p in periods]
-    ax.legend(handles=handles, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(handles))
+    kinds = [kind for kind in DASHES if any(kind == curve.kind for curve in drawn)]
+    handles = [Line2D([], [], color=colour or INK, linestyle=DASHES[kind], label=kind) for kind in kinds]
+    if colour is None:
+        periods = sorted({curve.period for curve in drawn})
+        handles += [Line2D([], [], color=motion_colour(f"period {p}"), label=f"period {p}") for p in periods]
+    if handles:
+        _add_key(ax, handles)
     return ax

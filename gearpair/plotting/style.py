@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from types import MappingProxyType
 from typing import Any
 
+from cycler import cycler
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
@@ -32,6 +33,7 @@ STYLE: dict[str, Any] = {
     "legend.frameon": False,
     "legend.fontsize": 8.5,
     "lines.linewidth": 1.2,
+    "axes.prop_cycle": cycler(color=["#1F3A5F", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9"]),
     "hatch.linewidth": 0.5,
 }
 

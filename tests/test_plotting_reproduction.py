@@ -1,0 +1,42 @@
+"""Pictures of a reproduction show what they were given."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+from gearpair import hypotheses as hy
+from gearpair import plotting, published
+
+
+@pytest.fixture(autouse=True)
+def no_figures_left():
+    yield
+    plt.close("all")
+
+
+def test_score_ranking_has_a_dot_for_every_reading():
+    ranked = hy.ranking(hy.trials([hy.PRINTED, hy.SWAPPED], hy.all_protocols(), 21))
+    ax = plotting.score_ranking(ranked, {"swapped": hy.SWAPPED})
+    np.testing.assert_allclose(ax.lines[0].get_ydata(), [entry.mean for entry in ranked])
+    np.testing.assert_allclose(ax.lines[1].get_ydata(), [entry.best.total for entry in ranked])
+    assert [text.get_text() for text in ax.texts] == ["swapped"]
+
+
+def test_reached_motions_has_a_box_for_every_range_and_dots_where_reached():
+    (reached,) = hy.reached([hy.SWAPPED], "damping_ratio", 10, n_discarded=200)
+    ax = plotting.reached_motions(reached, title="swapped")
+    assert len(ax.patches) == len(published.DAMPING_RANGES)
+    assert [label.get_text() for label in ax.get_yticklabels()] == ["chaotic", "period 3", "period 1"]
+    np.testing.assert_allclose(ax.lines[2].get_xdata(), reached.values[reached.has("1")])
+
+
+def test_coverage_by_phase():
+    turned = [hy.Hypothesis(stiff_for="2 - eps", phase=p) for p in (0.0, 90.0)]
+    pair = [hy.reached(turned, p, 5, n_discarded=100) for p in ("mesh_frequency", "damping_ratio")]
+    ax = plotting.coverage_by_phase(*pair)
+    for line, each in zip(ax.lines, pair, strict=False):
+        np.testing.assert_allclose(line.get_ydata(), [reached.coverage for reached in each])
