@@ -24,7 +24,7 @@ LONGEST_CELL = 14
 CHANGED = {
     "stiffness": {"contact_ratio": "1.78", "a": "0.125", "b": "0.395", "reading": "swapped", "n_harmonics": "5"},
     "frequency_sweep": {"damping_ratio": "0.05", "n_values": "101", "reading": "swapped", "narrowest": "0.05"},
-    "damping_sweep": {"mesh_frequency": "1.219", "highest": "0.2", "n_values": "51"},
+    "damping_sweep": {"mesh_frequency": "1.219", "highest": "0.2", "n_values": "51", "n_transient": "1000"},
     "reproduction": {"n_values": "31", "n_fine": "51", "n_reached": "8", "phase_step": "60"},
     "impacts": {"mean_force": "0.3", "reading": "swapped", "n_x": "13", "n_v": "9"},
 }
