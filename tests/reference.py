@@ -19,6 +19,7 @@ from gearpair._flow.cells import Parameters
 mp.dps = 70
 # Added to every stiffness: it parts coinciding roots and resonances, and shifts the answer by as little.
 NUDGE = mpf(10) ** -30
+NOISE = mpf(10) ** -36  # what a position can be off by, mostly from dividing by the nudge
 
 
 def kernel_parameters(osc: gp.Oscillator) -> Parameters:
@@ -97,19 +98,17 @@ class Piece:
         # Free terms from the start: a + b = y, r a + q b = u.
         y, u = x - self.rest - forced.imag, v - (self.rates[2] * forced).imag
         r, q = self.rates[:2]
-        self.terms = ((u - q * y) / (r - q), (r * y - u) / (r - q))
-        self.forced = forced
+        free = ((u - q * y) / (r - q), (r * y - u) / (r - q))
+        # X is the rest plus the real part of these coefficients times the exponentials; so are its derivatives.
+        self.coefficients = [
+            [c * rate**n for c, rate in zip((*free, -1j * forced), self.rates, strict=True)] for n in range(3)
+        ]
         self.x = x
 
-    def at(self, h):
-        """X, X', X'' at time h after the piece's start."""
-        values = [c * mp.exp(r * h) for c, r in zip(self.terms, self.rates, strict=False)]
-        wave = self.forced * mp.exp(self.rates[2] * h)
-        out = []
-        for n in range(3):
-            free = sum(c * r**n for c, r in zip(values, self.rates, strict=False)).real
-            out.append(free + (wave * self.rates[2] ** n).imag + (self.rest if n == 0 else 0))
-        return out
+    def derivative(self, n, h):
+        """The n-th derivative of X at time h after the piece's start."""
+        waves = sum(c * mp.exp(rate * h) for c, rate in zip(self.coefficients[n], self.rates, strict=True)).real
+        return waves + self.rest if n == 0 else waves
 
     def matrix(self, h):
         """The variational matrix over h."""
@@ -120,9 +119,9 @@ class Piece:
 
     def roots(self, n, points):
         """Roots of the n-th derivative, which is monotone between neighbours in `points`."""
-        values = [self.at(h)[n] for h in points]
+        values = [self.derivative(n, h) for h in points]
         return [
-            bisect(lambda h: self.at(h)[n], a, b, p)
+            bisect(lambda h: self.derivative(n, h), a, b, p)
             for a, b, p, q in zip(points, points[1:], values, values[1:], strict=False)
             if p * q < 0
         ]
@@ -134,11 +133,11 @@ class Piece:
         points = sorted([mpf(0), *self.roots(1, points), end])
         before = self.x
         for a, b in zip(points, points[1:], strict=False):
-            after = self.at(b)[0]
-            for boundary, left in ((ceiling, after > ceiling), (floor, after < floor)):
+            after = self.derivative(0, b)
+            for boundary, left in ((ceiling, after > ceiling + NOISE), (floor, after < floor - NOISE)):
                 if left:
                     return bisect(
-                        lambda h, boundary=boundary: self.at(h)[0] - boundary, a, b, before - boundary
+                        lambda h, boundary=boundary: self.derivative(0, h) - boundary, a, b, before - boundary
                     ), boundary
             before = after
         return None
@@ -219,7 +218,7 @@ def mpmath_period(osc: gp.Oscillator, x: float, v: float) -> Reference:
             rate = max(omega, mp.sqrt(mpf(level)), 2 * zeta if zeta**2 > level else 0)
             found = piece.first_exit(floor, ceiling, end - tau, 6 + int(12 * rate * (end - tau)))
             h = end - tau if found is None else found[0]
-            out.x, out.v, _ = piece.at(h)
+            out.x, out.v = piece.derivative(0, h), piece.derivative(1, h)
             out.pieces.append(piece.matrix(h))
             tau += h
             if found is None:

@@ -32,8 +32,8 @@ def compare(osc, x, v):
 def start_before(osc, region, at, x, v):
     """A start on the section (rounded) whose motion in `region` reaches about (x, v) at the fraction `at`."""
     piece = Piece(osc, osc.stiffness.levels[0], region, osc.mesh_frequency * at * osc.period + osc.error_phase, x, v)
-    x0, v0, _ = piece.at(-at * osc.period)
-    return float(x0), float(v0)
+    before = -at * osc.period
+    return float(piece.derivative(0, before)), float(piece.derivative(1, before))
 
 
 # X'' at a grazing contact is the force alone: positive at tau = 0.05 T, negative at tau = 0.3 T with a phase of pi.
@@ -90,10 +90,10 @@ def test_two_crossings_within_a_thousandth_of_a_period(lasting):
 @pytest.mark.parametrize("x", [1.0, -1.0])
 @pytest.mark.parametrize(
     "force, phase",
-    [(0.3, 0.0), (-0.3, 0.0), (0.0, 0.0), (0.0, np.pi), (0.0, 0.5), (0.0, -0.5)],
+    [(0.3, 0.0), (-0.3, 0.0), (0.0, 0.0), (0.0, np.nextafter(np.pi, 4.0)), (0.0, 0.5), (0.0, -0.5)],
 )
 def test_start_at_rest_on_a_boundary(x, force, phase):
-    """Decided by X'' = F + A sin(phi); where that is 0, by X''' = A Omega cos(phi)."""
+    """Decided by X'' = F + A sin(phi); where that is 0 (but for rounding), by X''' = A Omega cos(phi)."""
     osc = gp.Oscillator(mean_force=force, error_amplitude=0.5, error_phase=phase, mesh_frequency=1.0)
     compare(osc, x, 0.0)
 

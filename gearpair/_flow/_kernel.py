@@ -14,14 +14,20 @@ OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}, "nogil": True}
 SOURCES = sha256(b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))).hexdigest()[:16]
 
 
-def kernel(function):
+def kernel(function, **options):
     """Compile `function` at its first call, or load what an earlier process compiled from the same sources."""
+    options = OPTIONS | options
     try:
-        compiled = njit(function, cache=True, **OPTIONS)
+        compiled = njit(function, cache=True, **options)
     except RuntimeError:  # nowhere to write a cache
-        return njit(function, **OPTIONS)
+        return njit(function, **options)
     cache = getattr(compiled, "_cache", None)  # without it, NUMBA_DISABLE_JIT has left a plain function
     if cache is not None:
         name = f"{cache._impl.filename_base}-{SOURCES}"
         cache._cache_file = IndexDataCacheFile(cache._cache_path, name, SOURCES)
     return compiled
+
+
+def inlined_kernel(function):
+    """`kernel`, always inlined: handing over the tables of an oscillator would take longer than the work."""
+    return kernel(function, forceinline=True)

@@ -48,7 +48,7 @@ class Cells(NamedTuple):
     level: np.ndarray  # (n_cells,) index of the stiffness level
     maps: np.ndarray  # (n_cells, 3, COLUMNS)
     bases: np.ndarray  # (n_levels, 2, 5, TERMS), free flight and contact
-    stiffness: np.ndarray  # (n_levels,)
+    fourths: np.ndarray  # (n_levels, 2, 5) bounds of their fourth derivatives
     period: float
     damping_ratio: float
     escape_radius: float  # |X| + |X'| from which no motion comes back
@@ -78,7 +78,7 @@ def build_cells(p):
         np.empty(n_cells, np.int64),
         np.empty((n_cells, 3, COLUMNS)),
         np.empty((n_levels, 2, 5, TERMS)),
-        p.levels,
+        np.empty((n_levels, 2, 5)),
         2.0 * np.pi / p.mesh_frequency,
         p.damping_ratio,
         ESCAPE_RADIUS if contact_growth(p) > 1.0 else np.inf,
@@ -90,6 +90,9 @@ def build_cells(p):
         width = span * cells.period
         fill_basis(0.0, p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 0])
         fill_basis(p.levels[i], p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 1])
+        for contact in range(2):
+            for k in range(5):
+                cells.fourths[i, contact, k] = fourth_derivative_bound(cells.bases[i, contact, k], 1.0)
         for m in range(n):
             start = p.edges[i] + m * span
             theta = cells.turn * start + p.error_phase
@@ -146,10 +149,6 @@ def fill_map(cells, j, region):
     row[VX], row[VV] = ends[1, 0], ends[1, 1]
     row[X0] = ends[0, 2] * cells.force + ends[0, 3] * sine + ends[0, 4] * cosine + shift * (1.0 - ends[0, 0])
     row[V0] = ends[1, 2] * cells.force + ends[1, 3] * sine + ends[1, 4] * cosine - shift * ends[1, 0]
-    row[SX] = fourth_derivative_bound(basis[0], 1.0) / 384.0
-    row[SV] = fourth_derivative_bound(basis[1], 1.0) / 384.0
-    row[S0] = (
-        fourth_derivative_bound(basis[2], 1.0) * abs(cells.force)
-        + fourth_derivative_bound(basis[3], 1.0) * abs(sine)
-        + fourth_derivative_bound(basis[4], 1.0) * abs(cosine)
-    ) / 384.0
+    fourths = cells.fourths[cells.level[j], abs(region - 1)]
+    row[SX], row[SV] = fourths[0] / 384.0, fourths[1] / 384.0
+    row[S0] = (fourths[2] * abs(cells.force) + fourths[3] * abs(sine) + fourths[4] * abs(cosine)) / 384.0

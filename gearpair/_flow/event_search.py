@@ -74,7 +74,7 @@ def region_at(x, v, acceleration, force_rate):
 def first_exit(series, region, end, x1, v1, fourth):
     """When the motion first leaves `region` in (0, end].
 
-    Returns (outcome, t, boundary): LEFT at t through X = boundary, INSIDE with t = end, or
+    Returns (outcome, t, boundary, slope there): LEFT at t through X = boundary, INSIDE with t = end, or
     UNDECIDED when `MAX_STEPS` certified steps did not reach the end.
 
     ``x1, v1`` are value and slope (per t) at `end`; ``fourth >= max |p''''|``.
@@ -87,21 +87,22 @@ def first_exit(series, region, end, x1, v1, fourth):
     floor = -np.inf if region < 0 else 1.0 if region > 0 else -1.0
     ceiling = np.inf if region > 0 else -1.0 if region < 0 else 1.0
     if lowest - spread >= floor and highest + spread <= ceiling:
-        return INSIDE, end, 0.0
+        return INSIDE, end, 0.0, v1
     margin = MONOTONE * spread
     rising = b1 - b0 > margin and b2 - b1 > margin and b3 - b2 > margin
     falling = b0 - b1 > margin and b1 - b2 > margin and b2 - b3 > margin
     if rising or falling:
         boundary = ceiling if rising else floor
         if (rising and x1 <= ceiling) or (falling and x1 >= floor):
-            return INSIDE, end, 0.0
-        return LEFT, single_root(series, boundary, end, b0, b1, b2, b3), boundary
+            return INSIDE, end, 0.0, v1
+        t, slope = single_root(series, boundary, end, b0, b1, b2, b3)
+        return LEFT, t, boundary, slope
     return step_by_step(series, floor, ceiling, end, fourth)
 
 
 @kernel
 def single_root(series, boundary, end, b0, b1, b2, b3):
-    """The root of ``p(t) = boundary`` on (0, end) where p is monotone and passes the boundary.
+    """The root of ``p(t) = boundary`` on (0, end) where p is monotone and passes the boundary, and the slope there.
 
     Started from the root of the cubic Hermite interpolant, then Halley's iteration kept in a bracket.
     """
@@ -113,7 +114,7 @@ def single_root(series, boundary, end, b0, b1, b2, b3):
         s -= cubic / slope
     sign = 1.0 if b3 > b0 else -1.0
     low, high = 0.0, end
-    t = s * end
+    t, dp = s * end, 0.0
     if not low < t < high:
         t = 0.5 * end
     for _ in range(60):
@@ -125,26 +126,26 @@ def single_root(series, boundary, end, b0, b1, b2, b3):
             low = t
         newton = p / dp
         step = newton / (1.0 - 0.5 * newton * ddp / dp)
-        if abs(step) <= 1e-6 * end:  # the next error is its cube
-            return min(max(t - step, 0.0), end)
+        if abs(step) <= 1e-8 * end:  # its square is below rounding
+            return min(max(t - step, 0.0), end), dp - step * ddp
         t -= step
         if not low < t < high:
             t = 0.5 * (low + high)
-    return t
+    return t, dp
 
 
 @kernel
 def step_by_step(series, floor, ceiling, end, fourth):
     """`first_exit` by certified steps alone."""
     tiny = ROUNDING * max(1.0, abs(series[0]))  # below this a distance is rounding
-    t = 0.0
+    t, u = 0.0, 0.0
     for _ in range(MAX_STEPS):
         p, u, a, j = evaluate_jerk(series, t)
         above, below = p - floor, ceiling - p
         if above <= tiny and u < 0.0:
-            return LEFT, t, floor
+            return LEFT, t, floor, u
         if below <= tiny and u > 0.0:
-            return LEFT, t, ceiling
+            return LEFT, t, ceiling, u
         rest = end - t
         step = rest
         if above < np.inf:
@@ -156,8 +157,8 @@ def step_by_step(series, floor, ceiling, end, fourth):
             step = max(step, np.sqrt(tiny / (abs(a) + abs(j) + fourth + ROUNDING)))
         t += step
         if t >= end:
-            return INSIDE, end, 0.0
-    return UNDECIDED, t, 0.0
+            return INSIDE, end, 0.0, u
+    return UNDECIDED, t, 0.0, u
 
 
 @kernel

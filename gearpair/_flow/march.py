@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from ._kernel import kernel
+from ._kernel import inlined_kernel, kernel
 from .cells import COSINE, S0, SINE, SV, SX, V0, VV, VX, WIDTH, X0, XV, XX
-from .closed_form import TERMS, evaluate, expand, fourth_derivative_bound
+from .closed_form import TERMS, evaluate, expand
 from .event_search import INSIDE, UNDECIDED, first_exit, region_at
 
 # Status of a march.
@@ -21,11 +21,11 @@ def first_region(cells, x, v):
     return region_at(x, v, acceleration, cosine)
 
 
-@kernel
+@inlined_kernel
 def next_segment(cells, j, t, x, v, region, series):
     """Follow the motion in cell `j` from t to the first exit from `region` or the cell's end.
 
-    Fills `series` with the segment's power series in the time since t (unit: the cell's width). Returns
+    Times are in widths of the cell. Fills `series` with the segment's power series in the time since t. Returns
     (outcome, duration, x, v), x exactly on the boundary after an exit.
     """
     level, width = cells.level[j], cells.clock[j, WIDTH]
@@ -36,13 +36,20 @@ def next_segment(cells, j, t, x, v, region, series):
         c, s = np.cos(turn), np.sin(turn)
         sine, cosine = sine * c + cosine * s, cosine * c - sine * s
     expand(cells.bases[level, contact], region, x, v, cells.force, sine, cosine, series)
+    fourths = cells.fourths[level, contact]
+    fourth = fourths[0] * abs(x - region) + fourths[1] * abs(v)
+    fourth += fourths[2] * abs(cells.force) + fourths[3] * abs(sine) + fourths[4] * abs(cosine)
     end = 1.0 - t
-    x1, v1, _ = evaluate(series, end)
-    outcome, duration, boundary = first_exit(series, region, end, x1, v1, fourth_derivative_bound(series, end))
+    if t == 0.0:
+        x1, v1 = map_cell(cells, j, x, v, region)
+        slope1 = v1 * width
+    else:
+        x1, slope1, _ = evaluate(series, end)
+        v1 = slope1 / width
+    outcome, duration, boundary, slope = first_exit(series, region, end, x1, slope1, fourth)
     if outcome == INSIDE:
-        return outcome, end, x1, v1 / width
-    _, v1, _ = evaluate(series, duration)
-    return outcome, duration, boundary, v1 / width
+        return outcome, end, x1, v1
+    return outcome, duration, boundary, slope / width
 
 
 @kernel
@@ -53,7 +60,7 @@ def region_after(region, x):
     return 0
 
 
-@kernel
+@inlined_kernel
 def cross_cell(cells, j, x, v, region, series):
     """The rest of cell `j` where a crossing may happen: (status, number of events, x, v, region)."""
     t = 0.0
@@ -72,14 +79,20 @@ def cross_cell(cells, j, x, v, region, series):
 
 
 @kernel
+def map_cell(cells, j, x, v, region):
+    """The state at the end of cell `j`, all of it spent in `region`."""
+    row = cells.maps[j, region + 1]
+    return row[XX] * x + (row[XV] * v + row[X0]), row[VX] * x + (row[VV] * v + row[V0])
+
+
+@kernel
 def follow_cell(cells, j, x, v, region):
     """The state at the end of cell `j` if the motion certainly stays in `region`: (certain, x, v, low, high).
 
     ``low`` and ``high`` bound X over the cell; the certificate is the first of `event_search`.
     """
+    x1, v1 = map_cell(cells, j, x, v, region)
     row = cells.maps[j, region + 1]
-    x1 = row[XX] * x + (row[XV] * v + row[X0])
-    v1 = row[VX] * x + (row[VV] * v + row[V0])
     third = cells.clock[j, WIDTH] / 3.0
     b1, b2 = x + third * v, x1 - third * v1
     spread = row[SX] * abs(x - region) + (row[SV] * abs(v) + row[S0])
