@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from gearpair.published import Boundary, Range
-from gearpair.ranges import MotionRange, attractor_names
+from gearpair.ranges import MotionRange, attractor_names, symbol
 from gearpair.tables import Table
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ def compare_attractors(
         counts = Counter(attractor_names(plane, least_share))
         texts = [name if count == 1 else f"{name} ({count} of them)" for name, count in counts.items()]
         rows.append([f"{value:.{digits}f}", stated.item if stated else "–", motion, "; ".join(texts)])
-    return Table(["value", "item", "published", "attractors found"], rows)
+    return Table([symbol(ranges[0].parameter), "item", "published", "attractors found"], rows)
 
 
 def compare_boundaries(

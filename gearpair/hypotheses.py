@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair import published
 from gearpair._checks import check_choice, check_count, check_number
 from gearpair.batches import SettleSettings, settle_lanes
+from gearpair.integrators import runge_kutta_sweep
 from gearpair.oscillator import Oscillator
 from gearpair.reproduction import Score, label, published_labels, score
 from gearpair.stiffness import StiffnessWave
@@ -250,6 +251,50 @@ def trials(hypotheses: Sequence[Hypothesis], protocols: Sequence[Protocol], n_va
         for i, hypothesis in enumerate(hypotheses):
             scores = [score(p, axis(p, n_values), motions[i]) for p, motions in found.items()]
             done.append(Trial(hypothesis, protocol, *scores))
+    return sorted(done, key=lambda trial: -trial.total)
+
+
+def runge_kutta_trials(
+    hypotheses: Sequence[Hypothesis], protocols: Sequence[Protocol], rtol: float, n_values: int = 61
+) -> list[Trial]:
+    """`trials` with Runge-Kutta 4-5 in place of the exact flow, periods read off as a reader would.
+
+    Parameters
+    ----------
+    hypotheses : sequence of Hypothesis
+        With forcing and damping as printed: others have no single oscillator to sweep.
+    protocols : sequence of Protocol
+        With a number of periods to discard.
+    rtol : float
+        The relative tolerance; the absolute one is a thousandth of it.
+    n_values : int
+        Values on each axis.
+
+    Returns
+    -------
+    list of Trial
+        The best first.
+
+    Raises
+    ------
+    ValueError
+        For another forcing or damping, or a protocol that waits until motions settle.
+    """
+    done = []
+    for hypothesis, protocol in product(hypotheses, protocols):
+        check_choice("force", hypothesis.force, ("Omega^2",))
+        check_choice("damping", hypothesis.damping, ("2 zeta",))
+        n_discarded = check_count("n_discarded", protocol.n_discarded)
+        scores = []
+        for parameter in ("mesh_frequency", "damping_ratio"):
+            osc, values = hypothesis.oscillator(), axis(parameter, n_values)
+            drawn = runge_kutta_sweep(
+                osc, parameter, values[::-1] if protocol.seeding == "down" else values, x=protocol.x, v=protocol.v,
+                seeding="restart" if protocol.seeding == "restart" else "carry", n_transient=n_discarded,
+                n_samples=2 * MAX_PERIOD, rtol=rtol, atol=1e-3 * rtol,
+            ).sortby(parameter)  # fmt: skip
+            scores.append(score(parameter, values, drawn.period.values))
+        done.append(Trial(hypothesis, protocol, *scores))
     return sorted(done, key=lambda trial: -trial.total)
 
 

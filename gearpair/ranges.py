@@ -71,6 +71,17 @@ def motion_name(status: str, period: int | None = None) -> str:
     return CHAOS if status == Status.APERIODIC else str(status)
 
 
+def symbol(parameter: str) -> str:
+    """The article's symbol of a parameter, in plain letters.
+
+    Examples
+    --------
+    >>> symbol("mesh_frequency"), symbol("a")
+    ('Omega_h', 'a')
+    """
+    return attributes(parameter)["long_name"].rsplit(" ", 1)[-1]
+
+
 def motion_names(result: xr.Dataset) -> NDArray[np.str_]:
     """The name of every motion of a sweep, a map or a plane of starts, in the shape of its ``status``."""
     pairs = zip(result.status.values.ravel(), result.period.values.ravel(), strict=True)
@@ -138,7 +149,8 @@ def found_ranges(*sweeps: xr.Dataset, narrowest: float = 0.0) -> tuple[MotionRan
             found[same[-1]] = MotionRange(last.lower, max(last.upper, run.upper), run.motion)
         else:
             found.append(run)
-    return tuple(run for run in found if run.width >= narrowest)
+    wide = (run for run in found if run.width >= narrowest)
+    return tuple(sorted(wide, key=lambda run: (run.lower, motion_order(run.motion))))
 
 
 def swept_parameter(result: xr.Dataset) -> str:
@@ -324,9 +336,9 @@ def motion_table(states: Mapping[str, SteadyState], parameter: str, digits: int 
     Examples
     --------
     >>> motion_table({"the baseline": steady_state(Oscillator())}, "damping_ratio")
-    motion        damping_ratio  X_min  X_max  impact state  largest multiplier
-    ---------------------------------------------------------------------------
-    the baseline          0.020  0.118  1.492  single-sided               0.698
+    motion         zeta  X_min  X_max  impact state  largest multiplier
+    -------------------------------------------------------------------
+    the baseline  0.020  0.118  1.492  single-sided               0.698
     """
     rows = []
     for name, state in states.items():
@@ -334,7 +346,7 @@ def motion_table(states: Mapping[str, SteadyState], parameter: str, digits: int 
         cells.append(f"{abs(state.multipliers[0]):.{digits}f}")
         value = f"{state.oscillator.parameter(parameter):.{digits}f}"
         rows.append([name, value, *(cells if state.period else ["–"] * len(cells))])
-    return Table(["motion", parameter, "X_min", "X_max", "impact state", "largest multiplier"], rows)
+    return Table(["motion", symbol(parameter), "X_min", "X_max", "impact state", "largest multiplier"], rows)
 
 
 def motion_shares(

@@ -2,15 +2,34 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from html import escape
+from html import escape, unescape
 from typing import Any
+
+# Plain names of symbols, as they are set in HTML.
+SYMBOLS = {
+    "Omega_h": "Ω<sub>h</sub>",
+    "F_m'": "F<sub>m</sub>′",
+    "F_ah": "F<sub>ah</sub>",
+    "T_h": "T<sub>h</sub>",
+    "X_min": "X<sub>min</sub>",
+    "X_max": "X<sub>max</sub>",
+    "phi_h": "φ<sub>h</sub>",
+    "epsilon": "ε",
+    "eps": "ε",
+    "zeta": "ζ",
+    "pi": "π",
+    ">=": "≥",
+    "<=": "≤",
+}
+SYMBOL = re.compile("|".join(rf"(?<!\w){re.escape(escape(name))}(?!\w)" for name in SYMBOLS))
 
 
 @dataclass(frozen=True)
 class Table:
-    """Rows under headings; its `repr` is aligned text, and a notebook shows it as HTML.
+    """Rows under headings; its `repr` is aligned text, and a notebook shows it as HTML with its symbols set.
 
     Parameters
     ----------
@@ -67,11 +86,17 @@ class Table:
     def _repr_html_(self) -> str:
         def line(tag: str, cells: Sequence[str]) -> str:
             aligned = zip(cells, self.right, strict=True)
-            marks = [f'<{tag} style="text-align: {"right" if r else "left"}">{escape(c)}</{tag}>' for c, r in aligned]
+            marks = [f'<{tag} style="text-align: {"right" if r else "left"}">{_html(c)}</{tag}>' for c, r in aligned]
             return f"<tr>{''.join(marks)}</tr>"
 
         head, body = line("th", self.columns), "\n".join(line("td", row) for row in self.rows)
         return f'<table class="table">\n<thead>\n{head}\n</thead>\n<tbody>\n{body}\n</tbody>\n</table>'
+
+
+def _html(cell: str) -> str:
+    """A cell with its symbols set, and its intervals kept on one line."""
+    text = SYMBOL.sub(lambda match: SYMBOLS[unescape(match.group())], escape(cell))
+    return re.sub(r"(?<=\d)–(?=\d)", "&#8288;–&#8288;", text)
 
 
 def _is_number(cell: str) -> bool:

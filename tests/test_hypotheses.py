@@ -105,3 +105,37 @@ def test_random_tables_repeat_with_their_seed_and_differ_without():
 def test_bad_input_is_refused(make, message):
     with pytest.raises(ValueError, match=message):
         make()
+
+
+def test_runge_kutta_at_a_tight_tolerance_draws_what_the_exact_flow_draws():
+    protocol = hy.Protocol("down", 300, 1.0, 0.0)
+    (drawn,) = hy.runge_kutta_trials([hy.SWAPPED], [protocol], 1e-9, 21)
+    (exact,) = hy.trials([hy.SWAPPED], [protocol], 21)
+    assert drawn.damping.agreement == pytest.approx(exact.damping.agreement, abs=0.1)
+    assert drawn.frequency.agreement == pytest.approx(exact.frequency.agreement, abs=0.1)
+
+
+def test_runge_kutta_at_a_loose_tolerance_draws_noise():
+    (loose,) = hy.runge_kutta_trials([hy.SWAPPED], [hy.Protocol("down", 100)], 1e-3, 21)
+    assert loose.frequency.agreement < 0.4
+
+
+@pytest.mark.parametrize(
+    ("hypothesis", "protocol", "message"),
+    [
+        (hy.Hypothesis(force="constant"), hy.Protocol("up"), "force must be"),
+        (hy.Hypothesis(damping="zeta"), hy.Protocol("up"), "damping must be"),
+        (hy.SWAPPED, hy.Protocol("up", None), "n_discarded must be"),
+    ],
+)
+def test_runge_kutta_refuses_what_it_cannot_draw(hypothesis, protocol, message):
+    with pytest.raises(ValueError, match=message):
+        hy.runge_kutta_trials([hypothesis], [protocol], 1e-3, 5)
+
+
+def test_each_choice_is_worth_something():
+    ranked = hy.ranking(hy.trials([hy.PRINTED, hy.SWAPPED], [hy.Protocol("down")], 21))
+    rows = {(row[0], row[1]): row for row in hy.worth(ranked).rows}
+    assert rows["stiff for", "2 - eps"][2] == "1"
+    assert rows["stiff for", "eps - 1"][2] == "2"
+    assert rows["phase", "sin"][2] == "1"

@@ -22,15 +22,18 @@ LONGEST_CELL = 14
 
 # What each chapter is run with, beside its defaults, to show that its parameters are live.
 CHANGED = {
-    "stiffness": {"contact_ratio": "1.78", "a": "0.125", "b": "0.395", "reading": "swapped", "n_harmonics": "5"},
+    "stiffness": {  # three pairs in contact: the article's rectangle does not exist
+        **{"pinion_teeth": "40", "gear_teeth": "60", "module_mm": "2", "addendum": "1.3", "clearance": "0.2"},
+        **{"tip_radius": "0.1", "gear_shift": "0.1", "foundation": "false", "reading": "swapped", "n_values": "21"},
+    },
     "frequency_sweep": {"damping_ratio": "0.05", "n_values": "101", "reading": "swapped", "narrowest": "0.05"},
-    "damping_sweep": {"mesh_frequency": "1.219", "highest": "0.2", "n_values": "51"},
+    "damping_sweep": {"mesh_frequency": "1.219", "highest": "0.2", "n_values": "51", "n_transient": "1000"},
     "reproduction": {"n_values": "31", "n_fine": "51", "n_reached": "8", "phase_step": "60"},
     "impacts": {"mean_force": "0.3", "reading": "swapped", "n_x": "13", "n_v": "9"},
 }
 # A value that the library refuses, and its sentence.
 REFUSED = {
-    "stiffness": ("contact_ratio", "2.5", "contact_ratio must be a finite number above 1 and below 2, got 2.5"),
+    "stiffness": ("gear_teeth", "9", "gear_teeth = 9 is undercut: gear_shift is 0 and must be at least 0.4736"),
     "frequency_sweep": (
         "damping_ratio",
         "-0.05",

@@ -143,5 +143,13 @@ def test_a_table_is_aligned_and_escaped():
         gp.Table(["a", "b"], [[1, 2], [3]])
 
 
+def test_html_sets_symbols_and_keeps_intervals_together():
+    html = gp.Table(
+        ["Omega_h", "statement"], [["0.7–0.8", "X_min >= -1, eps = 1.68, F_m' small, zetas, pie"]]
+    )._repr_html_()
+    assert "Ω<sub>h</sub>" in html and "0.7&#8288;–&#8288;0.8" in html
+    assert "X<sub>min</sub> ≥ -1, ε = 1.68, F<sub>m</sub>′ small, zetas, pie" in html
+
+
 def test_a_table_without_rows_keeps_its_headings():
     assert repr(gp.Table(["a", "b"], [])).splitlines()[0] == "a  b"

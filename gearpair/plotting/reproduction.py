@@ -101,5 +101,5 @@ def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], 
     ax.axvline(0.0, color=BOUNDARY, linewidth=0.7)
     ax.set(xlabel="phase of the forcing (degrees)", ylabel="share accounted for", ylim=(0.0, 1.05))
     ax.set_xticks(range(-180, 181, 60))
-    ax.legend(loc="lower left")
+    ax.legend(loc="upper right")
     return ax

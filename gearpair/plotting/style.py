@@ -105,9 +105,10 @@ def add_motion_legend(ax: Axes, motions: Iterable[str]) -> None:
     dots = [
         Line2D([], [], linestyle="", marker="o", markersize=5, color=motion_colour(name), label=name) for name in names
     ]
+    size = 8.5 if len(dots) < 8 else 7.5  # so that a long row does not push the axes aside
     ax.legend(
         handles=dots, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(dots), handletextpad=0.1,
-        columnspacing=0.9, borderaxespad=0.2,
+        columnspacing=0.8, borderaxespad=0.2, fontsize=size,
     )  # fmt: skip
 
 

@@ -273,9 +273,9 @@ def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Seq
         upper.plot(body.positions, body.compliance[name], linestyle="", **look)
         deviation = np.interp(body.positions, mesh.path, fast) / body.compliance[name] - 1.0
         lower.plot(body.positions, 100.0 * deviation, linewidth=0.8, **look)
-    upper.set(ylabel=r"compliance $\times\, E b$", xlim=(0.0, mesh.contact_ratio), ylim=(0.0, None))
+    upper.set(ylabel=r"compliance $\times\, E b$", xlim=(-0.03, mesh.contact_ratio + 0.03), ylim=(0.0, None))
     lower.set(xlabel="mesh periods since the pair entered contact", ylabel="deviation (%)")
-    lower.set(xlim=(0.0, mesh.contact_ratio))
+    lower.set(xlim=(-0.03, mesh.contact_ratio + 0.03))
     upper.legend(loc="upper left")
     return [upper, lower]
 

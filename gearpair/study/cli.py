@@ -11,7 +11,7 @@ from gearpair.study.errors import StudyError
 
 EPILOG = """examples:
   gearpair chapters
-  gearpair run stiffness -p contact_ratio 1.78 -p a 0.125 -p b 0.395 -o wider.ipynb
+  gearpair run stiffness -p gear_teeth 54 -p module_mm 2 -o larger.ipynb
 """
 
 
