@@ -72,14 +72,13 @@ class Oscillator:
             "damping_ratio": check_number(
                 "damping_ratio", self.damping_ratio, at_least=0.0, at_most=LARGEST_DAMPING_RATIO
             ),
-            "mesh_frequency": check_number(
-                "mesh_frequency", self.mesh_frequency, above=0.0, at_most=LARGEST_MESH_FREQUENCY
-            ),
+            "mesh_frequency": check_number("mesh_frequency", self.mesh_frequency, above=0.0),
         }
         for name, value in checked.items():
             object.__setattr__(self, name, value)
         if not isinstance(self.stiffness, StiffnessWave):
             raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
+        check_number("mesh_frequency", self.mesh_frequency, at_most=LARGEST_MESH_FREQUENCY)
         rate = max(2.0 * self.damping_ratio, np.sqrt(max(self.stiffness.levels)))
         slowest = 2.0 * np.pi * rate / MOST_TURNS
         if self.mesh_frequency < slowest:

@@ -13,14 +13,14 @@ RECTANGULAR = gp.StiffnessWave.rectangular
 @pytest.mark.parametrize(
     "changes, message",
     [
-        ({"mesh_frequency": 0.0}, "mesh_frequency must be a finite number above 0 and at most 1e+06, got 0.0"),
-        ({"mesh_frequency": -1.0}, "mesh_frequency must be a finite number above 0 and at most 1e+06, got -1.0"),
-        ({"mesh_frequency": NAN}, "mesh_frequency must be a finite number above 0 and at most 1e+06, got nan"),
-        ({"mesh_frequency": INF}, "mesh_frequency must be a finite number above 0 and at most 1e+06, got inf"),
-        ({"mesh_frequency": "0.7"}, "mesh_frequency must be a finite number above 0 and at most 1e+06, got '0.7'"),
-        ({"mesh_frequency": True}, "mesh_frequency must be a finite number above 0 and at most 1e+06, got True"),
+        ({"mesh_frequency": 0.0}, "mesh_frequency must be a finite number above 0, got 0.0"),
+        ({"mesh_frequency": -1.0}, "mesh_frequency must be a finite number above 0, got -1.0"),
+        ({"mesh_frequency": NAN}, "mesh_frequency must be a finite number above 0, got nan"),
+        ({"mesh_frequency": INF}, "mesh_frequency must be a finite number above 0, got inf"),
+        ({"mesh_frequency": "0.7"}, "mesh_frequency must be a finite number above 0, got '0.7'"),
+        ({"mesh_frequency": True}, "mesh_frequency must be a finite number above 0, got True"),
         ({"mesh_frequency": 1e-9}, "mesh_frequency must be at least 6.64e-06 at this damping ratio"),
-        ({"mesh_frequency": 1e200}, "above 0 and at most 1e+06, got 1e+200"),
+        ({"mesh_frequency": 1e200}, "mesh_frequency must be a finite number at most 1e+06, got 1e+200"),
         ({"damping_ratio": -1e-9}, "damping_ratio must be a finite number at least 0 and at most 100, got -1e-09"),
         ({"damping_ratio": 101}, "damping_ratio must be a finite number at least 0 and at most 100, got 101.0"),
         ({"error_amplitude": -0.1}, "error_amplitude must be a finite number at least 0, got -0.1"),
@@ -103,7 +103,7 @@ CALLS = {
     "values of mesh_frequency must be a non-empty sequence of numbers, got shape ()": lambda: gp.sweep(
         BASELINE, "mesh_frequency", 0.7
     ),
-    "mesh_frequency must be a finite number above 0 and at most 1e+06, got -0.7": lambda: gp.sweep(
+    "mesh_frequency must be a finite number above 0, got -0.7": lambda: gp.sweep(
         BASELINE, "mesh_frequency", [0.7, -0.7]
     ),
     "seeding must be one of 'carry', 'restart', got 'random'": lambda: gp.sweep(
