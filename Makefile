@@ -55,6 +55,8 @@ $(READY): requirements.lock pyproject.toml
 	@$(RUN) -m pip install --quiet --disable-pip-version-check --requirement requirements.lock
 	@$(RUN) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@$(RUN) -c 'import matplotlib.font_manager'
+	@echo "Compiling the kernels (about a minute)"
+	@$(RUN) -m gearpair.study.warm_up
 	@touch $@
 
 # The lock holds for every platform and for Python 3.11 and newer; pins that are already in it are kept where they
