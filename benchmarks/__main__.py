@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import os
+import platform
 import sys
 from collections.abc import Sequence
+
+import numba
 
 from benchmarks import workload
 from benchmarks.accuracy import measure, reference_periods, shortfall
@@ -18,6 +22,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--quick", action="store_true", help="accuracy and the comparison alone, on fewer periods")
     quick = parser.parse_args(arguments).quick
 
+    print(
+        f"{platform.machine()}, {os.cpu_count()} cores with {os.getloadavg()[0]:.1f} processes wanting them, ", end=""
+    )
+    print(f"Python {platform.python_version()}, numba {numba.__version__}\n")
     methods = all_methods()
     counts = {m.oscillator.mesh_frequency: 2 if quick else 5 for m in methods} | {CHAOTIC: 3 if quick else 20}
     periods = {m.oscillator.mesh_frequency: m.oscillator for m in methods}
