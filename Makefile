@@ -34,13 +34,15 @@ test: $(READY)
 	@$(RUN) -m pytest $(PYTEST_ARGS)
 
 bench: $(READY)
-	@$(MAKE) --no-print-directory --silent $(BENCH_READY) || echo "Going on without the bench extra; the next run tries again" >&2
+	@$(MAKE) --no-print-directory --silent $(BENCH_READY) || \
+		echo "Going on without the bench extra; the next run tries again" >&2
 	@$(RUN) -m benchmarks $(BENCH_ARGS)
 
 $(BENCH_READY): $(READY)
 	@echo "Adding the bench extra to $(VENV)"
-	@$(RUN) -m pip install --quiet --disable-pip-version-check --retries 1 --no-build-isolation \
-		--constraint requirements.lock --editable '.[bench]'
+	@$(RUN) -m pip install --quiet --disable-pip-version-check --retries 1 --constraint requirements.lock \
+		$$($(RUN) -c 'import tomllib; \
+		print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["bench"])')
 	@touch $@
 
 accept: $(READY)

@@ -1,12 +1,11 @@
-"""Diagrams and grids of starts, each in a process of its own, so that its memory and its cores are its own.
+"""Diagrams and grids of starts, each in a process of its own, so that its memory is its own.
 
-``python -m benchmarks.jobs grid 50 100`` prints one line of JSON per size: seconds, peak memory and cores.
+``python -m benchmarks.jobs grid 50 100`` prints one line of JSON per size: seconds and peak memory.
 """
 
 from __future__ import annotations
 
 import json
-import os
 import resource
 import subprocess
 import sys
@@ -16,7 +15,6 @@ from pathlib import Path
 from time import perf_counter, process_time
 
 import numpy as np
-from numba import config
 
 import gearpair as gp
 
@@ -38,7 +36,6 @@ class Measured:
         Summed over the cores; what the machine does for others does not count.
     peak_mib : float
         The process's peak memory so far, sizes before this one included.
-    cores : int
     """
 
     job: str
@@ -46,7 +43,6 @@ class Measured:
     seconds: float
     processor_seconds: float
     peak_mib: float
-    cores: int
 
 
 def diagram(n: int) -> None:
@@ -82,26 +78,25 @@ def peak_mib() -> float:
 def run_here(job: str, sizes: Sequence[int]) -> list[Measured]:
     """Run a job at each size in this process, once small to compile and import."""
     JOBS[job](2)
-    done = [Measured(job, 0, 0.0, 0.0, peak_mib(), config.NUMBA_NUM_THREADS)]
+    done = [Measured(job, 0, 0.0, 0.0, peak_mib())]
     for size in sizes:
         begin, busy = perf_counter(), process_time()
         JOBS[job](size)
         seconds, processor = perf_counter() - begin, process_time() - busy
-        done.append(Measured(job, size, seconds, processor, peak_mib(), config.NUMBA_NUM_THREADS))
+        done.append(Measured(job, size, seconds, processor, peak_mib()))
     return done
 
 
-def run_apart(job: str, sizes: Sequence[int], cores: int | None = None) -> list[Measured]:
+def run_apart(job: str, sizes: Sequence[int]) -> list[Measured]:
     """`run_here` in a process of its own; size 0 is what it holds before the first."""
-    out = python("-m", "benchmarks.jobs", job, *map(str, sizes), cores=cores)
+    out = python("-m", "benchmarks.jobs", job, *map(str, sizes))
     return [Measured(**json.loads(line)) for line in out.splitlines()]
 
 
-def python(*arguments: str, cores: int | None = None) -> str:
+def python(*arguments: str) -> str:
     """What another Python prints."""
-    environment = os.environ | ({} if cores is None else {"NUMBA_NUM_THREADS": str(cores)})
     command = [sys.executable, *arguments]
-    return subprocess.run(command, cwd=ROOT, env=environment, check=True, stdout=subprocess.PIPE, text=True).stdout
+    return subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
 if __name__ == "__main__":

@@ -1,9 +1,10 @@
 """`make bench`: its accuracy part passes as it stands, and fails when the flow is wrong."""
 
 import pytest
+from numba import config
 
 import benchmarks.__main__ as bench
-from benchmarks import accuracy, jobs, methods
+from benchmarks import accuracy, jobs, methods, workload
 
 
 @pytest.fixture(autouse=True)
@@ -52,9 +53,17 @@ def test_slow_is_no_failure(monkeypatch):
     assert bench.main(["--quick"]) == 0
 
 
-def test_jobs_run_in_a_process_of_their_own_on_as_many_cores_as_asked():
-    before, after = jobs.run_apart("grid", [3], cores=1)
+def test_jobs_run_in_a_process_of_their_own():
+    before, after = jobs.run_apart("grid", [3])
     assert (before.size, after.size) == (0, 3)
-    assert before.cores == after.cores == 1
     assert after.seconds > 0.0
     assert 20.0 < before.peak_mib <= after.peak_mib
+
+
+def test_one_core_is_timed_on_one_thread_and_the_setting_comes_back(monkeypatch):
+    seen = []
+    monkeypatch.setitem(workload.JOBS, "grid", lambda n: seen.append((n, config.NUMBA_NUM_THREADS)))
+    before = config.NUMBA_NUM_THREADS
+    workload._on_cores(1, "grid", 7)
+    assert seen == [(7, 1)]
+    assert before == config.NUMBA_NUM_THREADS
