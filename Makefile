@@ -2,13 +2,14 @@
 #   make book    execute the chapters and build the site at _build/html/index.html
 #   make test    run every test
 # Others:
+#   make bench   measure the engine beside other integrators (installs heyoka; see benchmarks/README.md)
 #   make accept  re-execute the source notebooks and store their new outputs (review them with git diff)
 #   make lock    re-make requirements.lock from pyproject.toml
 #   make clean   remove what was generated (the environment in .venv stays)
 # Choose an interpreter with PYTHON=python3.12; pass options to pytest with PYTEST_ARGS="-k layers".
 
 .DEFAULT_GOAL := help
-.PHONY: help book test accept lock clean
+.PHONY: help book test bench accept lock clean
 .DELETE_ON_ERROR:
 
 VERSION_CHECK := import sys; sys.exit(sys.version_info < (3, 11))
@@ -18,6 +19,7 @@ PYTEST_ARGS ?=
 
 VENV := .venv
 READY := $(VENV)/.ready
+BENCH_READY := $(VENV)/.bench-ready
 RUN := $(VENV)/bin/python
 
 help:
@@ -28,6 +30,9 @@ book: $(READY)
 
 test: $(READY)
 	@$(RUN) -m pytest $(PYTEST_ARGS)
+
+bench: $(BENCH_READY)
+	@$(RUN) -m benchmarks
 
 accept: $(READY)
 	@$(RUN) -m gearpair accept
@@ -43,6 +48,12 @@ $(READY): requirements.lock pyproject.toml
 	@$(RUN) -c 'import matplotlib.font_manager'
 	@echo "Compiling the kernels (about a minute)"
 	@$(RUN) -m gearpair.study.warm_up
+	@touch $@
+
+# What only the benchmarks need stays out of the lock; they do without where it cannot be had.
+$(BENCH_READY): $(READY)
+	@$(RUN) -m pip install --quiet --disable-pip-version-check --constraint requirements.lock --no-build-isolation \
+		--editable '.[bench]' || echo "heyoka cannot be installed here: the table is printed without it"
 	@touch $@
 
 # The lock holds for every platform and for Python 3.11 and newer; pins that are already in it are kept where they

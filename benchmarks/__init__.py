@@ -1,0 +1,1 @@
+"""Measurements of the engine, printed by ``make bench``."""
