@@ -39,7 +39,7 @@ from gearpair.spectra import Spectrum, spectrum
 from gearpair.spurpair import SpurPair
 from gearpair.steady import SteadyState, steady_state
 from gearpair.stiffness import StiffnessWave
-from gearpair.structure import bifurcation_table, cascade_table, coexistence, coexistence_table
+from gearpair.structure import bifurcation_table, cascade_table, coexistence, coexistence_table, stable_ranges
 from gearpair.sweeps import sweep
 from gearpair.tables import Table
 
@@ -99,6 +99,7 @@ __all__ = [
     "runge_kutta_section",
     "runge_kutta_sweep",
     "spectrum",
+    "stable_ranges",
     "steady_state",
     "stroboscopic_map",
     "sweep",
