@@ -4,6 +4,7 @@ Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`
 """
 
 from gearpair import published
+from gearpair.anatomy import CertifiedStep, Segment, certificate_table, segments, series_table, telling_segments
 from gearpair.batches import Status
 from gearpair.bifurcation_curves import BifurcationCurve, continue_bifurcation
 from gearpair.branch_search import doubling_cascade, find_branches
@@ -21,6 +22,16 @@ from gearpair.meshing import MeshStiffness, mesh_stiffness
 from gearpair.motion import Impacts, Trajectory, stroboscopic_map, trajectory
 from gearpair.orbits import NewtonStatus, PeriodicOrbit, find_orbits, periodic_orbit
 from gearpair.oscillator import Oscillator
+from gearpair.precision import (
+    Precision,
+    coarse_share,
+    disorder_table,
+    impact_time_error,
+    numerical_chaos,
+    plain_sweep,
+    recut,
+    work_precision,
+)
 from gearpair.ranges import (
     MotionRange,
     attractor_names,
@@ -47,6 +58,7 @@ __all__ = [
     "Bifurcation",
     "BifurcationCurve",
     "Branch",
+    "CertifiedStep",
     "GearDrive",
     "ImpactState",
     "Impacts",
@@ -56,6 +68,8 @@ __all__ = [
     "NewtonStatus",
     "Oscillator",
     "PeriodicOrbit",
+    "Precision",
+    "Segment",
     "Spectrum",
     "SpurPair",
     "Status",
@@ -69,6 +83,8 @@ __all__ = [
     "basins",
     "bifurcation_table",
     "cascade_table",
+    "certificate_table",
+    "coarse_share",
     "coexistence",
     "coexistence_table",
     "compare_attractors",
@@ -76,6 +92,7 @@ __all__ = [
     "compare_ranges",
     "continue_bifurcation",
     "continue_orbit",
+    "disorder_table",
     "doubled_orbit",
     "doubling_cascade",
     "find_branches",
@@ -83,6 +100,7 @@ __all__ = [
     "follow",
     "found_ranges",
     "impact_state",
+    "impact_time_error",
     "iso_stiffness",
     "lyapunov_exponents",
     "mesh_stiffness",
@@ -91,18 +109,25 @@ __all__ = [
     "motion_ranges",
     "motion_shares",
     "motion_table",
+    "numerical_chaos",
     "parameter_map",
     "periodic_orbit",
+    "plain_sweep",
     "published",
     "range_of",
+    "recut",
     "representatives",
     "runge_kutta_section",
     "runge_kutta_sweep",
+    "segments",
+    "series_table",
     "spectrum",
     "stable_ranges",
     "steady_state",
     "stroboscopic_map",
     "sweep",
+    "telling_segments",
     "trajectory",
+    "work_precision",
     "zero_one_test",
 ]

@@ -16,6 +16,14 @@ from gearpair.plotting.diagrams import (
     range_strips,
 )
 from gearpair.plotting.maps import period_map
+from gearpair.plotting.method import (
+    certificate,
+    certified_steps,
+    drawn_diagram,
+    interpolation_error,
+    step_convergence,
+    work_precision,
+)
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
 from gearpair.plotting.reproduction import coverage_by_phase, reached_motions, score_ranking
@@ -42,9 +50,12 @@ __all__ = [
     "bifurcation_curves",
     "bifurcation_diagram",
     "branches",
+    "certificate",
+    "certified_steps",
     "compliance_stack",
     "contact_ratio_cloud",
     "coverage_by_phase",
+    "drawn_diagram",
     "exponents",
     "extremes",
     "finite_element_check",
@@ -52,6 +63,7 @@ __all__ = [
     "gallery",
     "harmonics",
     "impact_states",
+    "interpolation_error",
     "load_shares",
     "mark_boundaries",
     "mesh_curves",
@@ -68,8 +80,10 @@ __all__ = [
     "reached_motions",
     "score_ranking",
     "spectrum",
+    "step_convergence",
     "stiffness_trends",
     "stiffness_wave",
     "time_history",
     "tooth_outlines",
+    "work_precision",
 ]
