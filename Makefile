@@ -2,22 +2,26 @@
 #   make book    execute the chapters and build the site at _build/html/index.html
 #   make test    run every test
 # Others:
+#   make bench   measure accuracy and time on this machine, beside other integrators (some minutes; installs the
+#                bench extra first, and does without where it cannot be had); BENCH_ARGS=--quick for less
 #   make accept  re-execute the source notebooks and store their new outputs (review them with git diff)
 #   make lock    re-make requirements.lock from pyproject.toml
 #   make clean   remove what was generated (the environment in .venv stays)
 # Choose an interpreter with PYTHON=python3.12; pass options to pytest with PYTEST_ARGS="-k layers".
 
 .DEFAULT_GOAL := help
-.PHONY: help book test accept lock clean
+.PHONY: help book test bench accept lock clean
 .DELETE_ON_ERROR:
 
 VERSION_CHECK := import sys; sys.exit(sys.version_info < (3, 11))
 PYTHON ?= $(shell for p in python3 python3.11 python3.12 python3.13 python3.14; do \
 	$$p -c '$(VERSION_CHECK)' >/dev/null 2>&1 && { echo $$p; break; }; done)
 PYTEST_ARGS ?=
+BENCH_ARGS ?=
 
 VENV := .venv
 READY := $(VENV)/.ready
+BENCH_READY := $(VENV)/.ready-bench
 RUN := $(VENV)/bin/python
 
 help:
@@ -28,6 +32,18 @@ book: $(READY)
 
 test: $(READY)
 	@$(RUN) -m pytest $(PYTEST_ARGS)
+
+bench: $(READY)
+	@$(MAKE) --no-print-directory --silent $(BENCH_READY) || \
+		echo "Going on without the bench extra; the next run tries again" >&2
+	@$(RUN) -m benchmarks $(BENCH_ARGS)
+
+$(BENCH_READY): $(READY)
+	@echo "Adding the bench extra to $(VENV)"
+	@$(RUN) -m pip install --quiet --disable-pip-version-check --retries 1 --constraint requirements.lock \
+		$$($(RUN) -c 'import tomllib; \
+		print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["bench"])')
+	@touch $@
 
 accept: $(READY)
 	@$(RUN) -m gearpair accept
@@ -41,6 +57,8 @@ $(READY): requirements.lock pyproject.toml
 	@$(RUN) -m pip install --quiet --disable-pip-version-check --requirement requirements.lock
 	@$(RUN) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@$(RUN) -c 'import matplotlib.font_manager'
+	@echo "Compiling the kernels (about a minute)"
+	@$(RUN) -m gearpair.study.warm_up
 	@touch $@
 
 # The lock holds for every platform and for Python 3.11 and newer; pins that are already in it are kept where they
@@ -54,4 +72,4 @@ lock:
 
 clean:
 	rm -rf _build book/chapters .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
-	find gearpair tests -name __pycache__ -type d -prune -exec rm -rf {} +
+	find gearpair tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +

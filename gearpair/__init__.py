@@ -50,7 +50,7 @@ from gearpair.spectra import Spectrum, spectrum
 from gearpair.spurpair import SpurPair
 from gearpair.steady import SteadyState, steady_state
 from gearpair.stiffness import StiffnessWave
-from gearpair.structure import bifurcation_table, cascade_table, coexistence, coexistence_table
+from gearpair.structure import bifurcation_table, cascade_table, coexistence, coexistence_table, stable_ranges
 from gearpair.sweeps import sweep
 from gearpair.tables import Table
 
@@ -122,6 +122,7 @@ __all__ = [
     "segments",
     "series_table",
     "spectrum",
+    "stable_ranges",
     "steady_state",
     "stroboscopic_map",
     "sweep",

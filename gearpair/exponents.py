@@ -9,7 +9,7 @@ from gearpair._checks import check_count
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.march import OK, march
 from gearpair._flow.tangent import exponents
-from gearpair.motion import check_starts, raise_unless_ok
+from gearpair.motion import check_start, raise_unless_ok
 from gearpair.oscillator import Oscillator
 
 
@@ -50,13 +50,11 @@ def lyapunov_exponents(
     >>> bool(pair[0] > 0.05), bool(abs(pair.sum() + 0.04) < 1e-12)
     (True, True)
     """
-    xs, vs = check_starts(x, v)
-    if xs.ndim:
-        raise ValueError(f"x and v must be single numbers, got shape {xs.shape}")
+    x, v = check_start(x, v)
     n_periods = check_count("n_periods", n_periods)
     n_transient = check_count("n_transient", n_transient, at_least=0)
     series = np.empty(TERMS)
-    status, x, v = march(osc._cells, float(xs), float(vs), n_transient, series)
+    status, x, v = march(osc._cells, x, v, n_transient, series)
     if status == OK:
         status, x, v, largest, smallest, _error = exponents(osc._cells, x, v, n_periods, 1, series)
     raise_unless_ok(status, n_transient + n_periods)

@@ -12,7 +12,7 @@ from gearpair._cores import on_all_cores
 from gearpair._flow.runge_kutta import COMPLETE, integrate_rows
 from gearpair._flow.settle import Lanes
 from gearpair.batches import SettleSettings, lanes_of
-from gearpair.motion import check_starts
+from gearpair.motion import check_start
 from gearpair.oscillator import Oscillator
 from gearpair.sweeps import attributes, oscillators_along
 
@@ -187,11 +187,9 @@ def _integrated(
     """Section points (n, n_kept, 2), status (n,) and calls of the right-hand side (n,)."""
     check_number("rtol", rtol, above=0.0)
     check_number("atol", atol, above=0.0)
-    xs, vs = check_starts(x, v)
-    if xs.ndim:
-        raise ValueError(f"x and v must be single numbers, got shape {xs.shape}")
+    start = check_start(x, v)
     n = len(oscillators)
-    lanes: Lanes = lanes_of(oscillators, np.broadcast_to([float(xs), float(vs)], (n, 2)), SettleSettings(n_transient=0))
+    lanes: Lanes = lanes_of(oscillators, np.broadcast_to(start, (n, 2)), SettleSettings(n_transient=0))
     points, status, calls = np.empty((n, n_kept, 2)), np.empty(n, np.int64), np.empty(n, np.int64)
     arguments = (
         lanes,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearpair.batches import SettleSettings, settle_lanes
-from gearpair.motion import check_starts
+from gearpair.motion import check_start
 from gearpair.oscillator import Oscillator
 from gearpair.sweeps import attributes, oscillators_along, settled_variables
 
@@ -66,8 +66,7 @@ def parameter_map(
     shape = tuple(len(values) for values in checked.values())
     oscillators = [osc.replace(**dict(zip(checked, point, strict=True))) for point in product(*checked.values())]
     settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
-    xs, vs = check_starts(x, v)
-    starts = np.broadcast_to([float(xs), float(vs)], (len(oscillators), 2))
+    starts = np.broadcast_to(check_start(x, v), (len(oscillators), 2))
     out = settle_lanes(oscillators, starts, settings, progress=progress)
     import xarray as xr  # here, so that importing gearpair stays quick
 

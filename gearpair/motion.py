@@ -99,6 +99,14 @@ def check_starts(x: ArrayLike, v: ArrayLike) -> tuple[NDArray[np.float64], NDArr
     return xs, vs
 
 
+def check_start(x: ArrayLike, v: ArrayLike) -> tuple[float, float]:
+    """One start as two floats, or a ValueError that says what is wrong with it."""
+    xs, vs = check_starts(x, v)
+    if xs.ndim:
+        raise ValueError(f"x and v must be single numbers, got shape {xs.shape}")
+    return float(xs), float(vs)
+
+
 def stroboscopic_map(
     osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -201,17 +209,13 @@ def trajectory(
     >>> len(motion.impacts)
     4
     """
-    xs, vs = check_starts(x, v)
-    if xs.ndim:
-        raise ValueError(f"x and v must be single numbers, got shape {xs.shape}")
+    x, v = check_start(x, v)
     n_periods = check_count("n_periods", n_periods)
     n_transient = check_count("n_transient", n_transient, at_least=0)
     samples_per_period = check_count("samples_per_period", samples_per_period)
     check_choice("method", method, METHODS)
     run = _exact if method == "exact" else _integrated
-    samples, impacts = run(
-        osc, float(xs), float(vs), n_periods, n_transient, samples_per_period, method=method, rtol=rtol, atol=atol
-    )
+    samples, impacts = run(osc, x, v, n_periods, n_transient, samples_per_period, method=method, rtol=rtol, atol=atol)
     tau = np.linspace(0.0, n_periods * osc.period, len(samples))
     return Trajectory(osc, tau, samples[:, 0], samples[:, 1], impacts, samples_per_period, method)
 

@@ -15,7 +15,7 @@ from gearpair._flow.cycle import map_at, newton_starts, turns_at
 from gearpair._flow.march import OK, march
 from gearpair._flow.tangent import newton
 from gearpair.impacts import ImpactState, impact_state
-from gearpair.motion import check_starts
+from gearpair.motion import check_start, check_starts
 from gearpair.oscillator import Oscillator
 
 SAME_POINT = 1e-9  # section points of one orbit closer than this are one
@@ -130,11 +130,9 @@ def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> Periodic
     >>> str(orbit.status), orbit.period, orbit.stable
     ('converged', 1, False)
     """
-    xs, vs = check_starts(x, v)
-    if xs.ndim:
-        raise ValueError(f"x and v must be single numbers, got shape {xs.shape}")
+    x, v = check_start(x, v)
     period = check_count("period", period)
-    converged, x, v, _ = newton(osc._cells, float(xs), float(vs), period, np.empty((2, 2)), np.empty(TERMS))
+    converged, x, v, _ = newton(osc._cells, x, v, period, np.empty((2, 2)), np.empty(TERMS))
     if converged:
         period = _minimal_period(osc, x, v, period)
     return orbit_at(osc, x, v, period, NewtonStatus.CONVERGED if converged else NewtonStatus.DIVERGED)

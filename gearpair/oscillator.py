@@ -14,6 +14,8 @@ from gearpair._flow.cells import Cells, Parameters, build_cells
 from gearpair.stiffness import StiffnessWave
 
 LARGEST_DAMPING_RATIO = 100.0
+LARGEST_MESH_FREQUENCY = 1e6
+MOST_TURNS = 1e6  # of the fastest rate in a mesh period, in radians: the tables of a period are as long
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,7 +35,8 @@ class Oscillator:
     damping_ratio : float
         zeta, from 0 to 100.
     mesh_frequency : float
-        Omega_h, above 0; the mesh period is ``T = 2 pi / Omega_h``.
+        Omega_h, above 0 and at most 1e6; the mesh period is ``T = 2 pi / Omega_h``, and not longer than a
+        million times the fastest time scale of contact.
     stiffness : StiffnessWave
         k(tau) over the mesh period; the article's printed rectangle by default.
 
@@ -75,6 +78,14 @@ class Oscillator:
             object.__setattr__(self, name, value)
         if not isinstance(self.stiffness, StiffnessWave):
             raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
+        check_number("mesh_frequency", self.mesh_frequency, at_most=LARGEST_MESH_FREQUENCY)
+        rate = max(2.0 * self.damping_ratio, np.sqrt(max(self.stiffness.levels)))
+        slowest = 2.0 * np.pi * rate / MOST_TURNS
+        if self.mesh_frequency < slowest:
+            raise ValueError(
+                f"mesh_frequency must be at least {slowest:.3g} at this damping ratio and these stiffness levels "
+                f"(a millionth of their rate), got {self.mesh_frequency}"
+            )
 
     @property
     def period(self) -> float:

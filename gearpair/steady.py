@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gearpair._flow.settle import Settled
 from gearpair.batches import STATUSES, SettleSettings, Status, settle_lanes
 from gearpair.impacts import ImpactState, impact_state
-from gearpair.motion import check_starts
+from gearpair.motion import check_start
 from gearpair.orbits import multipliers_of
 from gearpair.oscillator import Oscillator
 
@@ -103,13 +103,11 @@ def steady_state(
     >>> str(state.status), state.period, str(state.impact_state)
     ('periodic', 2, 'single_drive')
     """
-    xs, vs = check_starts(x, v)
-    if xs.ndim:
-        raise ValueError(f"x and v must be single numbers, got shape {xs.shape}")
+    start = check_start(x, v)
     settings = SettleSettings(
         n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=max(n_samples, max_period)
     )
-    out = settle_lanes([osc], np.array([[xs, vs]]), settings)
+    out = settle_lanes([osc], np.array([start]), settings)
     return describe(osc, out, 0)
 
 

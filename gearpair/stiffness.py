@@ -155,8 +155,8 @@ class StiffnessWave:
         >>> np.round(2 * np.abs(StiffnessWave.rectangular().harmonics(2)[1:]), 4)
         array([0.2849, 0.1526])
         """
-        check_number("n", n, at_least=0)
-        m = np.arange(1, int(n) + 1)[:, None]
+        n = check_count("n", n, at_least=0)
+        m = np.arange(1, n + 1)[:, None]
         ends = np.array([*self.edges, 1.0])
         turns = np.exp(-2j * np.pi * m * ends)
         steps = (turns[:, :-1] - turns[:, 1:]) / (2j * np.pi * m)

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from gearpair.branches import Bifurcation, Branch
-from gearpair.ranges import IMPACT_NAMES
+from gearpair.ranges import IMPACT_NAMES, MotionRange
 from gearpair.tables import Table
 
 
@@ -43,6 +43,40 @@ def coexistence(
         else:
             ranges.append((left, right, names))
     return [each for each in ranges if each[1] - each[0] >= shortest]
+
+
+def stable_ranges(branches: Iterable[Branch], *, shortest: float = 0.0) -> tuple[MotionRange, ...]:
+    """Where each kind of motion is stable on some branch, between the bifurcations that bound it.
+
+    Parameters
+    ----------
+    branches : iterable of Branch
+        Along one parameter.
+    shortest : float
+        Ranges narrower than this are left out.
+
+    Returns
+    -------
+    tuple of MotionRange
+        By rising lower end; what overlaps or touches is one range, whatever the impact states.
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, continue_orbit, periodic_orbit
+    >>> branch = continue_orbit(periodic_orbit(Oscillator(), 0.34629, -0.25625, 2), "mesh_frequency", 0.7, 0.8)
+    >>> [(run.motion, round(run.lower, 4), round(run.upper, 4)) for run in stable_ranges([branch])]
+    [('period 2', 0.7, 0.766)]
+    """
+    joined: list[MotionRange] = []
+    for low, high, name in sorted(piece for branch in branches for piece in _stable_pieces(branch)):
+        motion = " ".join(name.split()[:2])
+        same = [i for i, run in enumerate(joined) if run.motion == motion and low <= run.upper]
+        if same:
+            run = joined[same[-1]]
+            joined[same[-1]] = MotionRange(run.lower, max(run.upper, high), motion)
+        else:
+            joined.append(MotionRange(low, high, motion))
+    return tuple(run for run in joined if run.width >= shortest)
 
 
 def _stable_pieces(branch: Branch) -> list[tuple[float, float, str]]:

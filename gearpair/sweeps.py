@@ -11,7 +11,7 @@ from gearpair._checks import check_choice, check_number
 from gearpair._flow.settle import Settled
 from gearpair.batches import STATUSES, SettleSettings, Status, settle_lanes
 from gearpair.impacts import impact_state
-from gearpair.motion import check_starts
+from gearpair.motion import check_start
 from gearpair.oscillator import Oscillator
 
 if TYPE_CHECKING:
@@ -95,8 +95,7 @@ def sweep(
     settings = SettleSettings(
         n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=max(n_samples, max_period)
     )
-    xs, vs = check_starts(x, v)
-    starts = np.broadcast_to([float(xs), float(vs)], (len(oscillators), 2))
+    starts = np.broadcast_to(check_start(x, v), (len(oscillators), 2))
     out = settle_lanes(
         oscillators, starts, settings, chain=len(oscillators) if seeding == "carry" else 1, progress=progress
     )

@@ -33,7 +33,7 @@ class ToothProfile:
     root : {"trochoid", "straight", "base_circle"}
         ``"trochoid"``: the fillet that the rack cuts, from the root circle to the form circle.
         ``"straight"``: lines parallel to the tooth's centre line from the base circle down to the root
-        circle (Liang, Zuo and Hoseini 2014). ``"base_circle"``: nothing below the base circle, where the
+        circle (Liang, Zuo and Patel 2014). ``"base_circle"``: nothing below the base circle, where the
         tooth is clamped (the early papers, Yang and Lin 1987).
 
     Raises

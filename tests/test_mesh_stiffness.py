@@ -39,7 +39,7 @@ def rolls_in_contact(pair: SpurPair, who: str, positions: np.ndarray) -> np.ndar
 
 
 def angle_form(tooth: ToothProfile, roll: float) -> tuple[float, float, float]:
-    """Bending, shear and axial compliance as Liang, Zuo and Hoseini (2014) write them, by angles on the base circle."""
+    """Bending, shear and axial compliance as Liang, Zuo and Patel (2014) write them, by angles on the base circle."""
     half = tooth.gear.base_half_angle
     a1 = roll - half
     ratio = tooth.root_radius / tooth.base_radius

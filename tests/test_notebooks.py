@@ -27,7 +27,7 @@ CHANGED = {
         **{"tip_radius": "0.1", "gear_shift": "0.1", "foundation": "false", "reading": "swapped", "n_values": "21"},
     },
     "frequency_sweep": {"damping_ratio": "0.05", "n_values": "101", "reading": "swapped", "narrowest": "0.05"},
-    "damping_sweep": {"mesh_frequency": "1.219", "highest": "0.2", "n_values": "51"},
+    "damping_sweep": {"mesh_frequency": "1.219", "highest": "0.2", "n_values": "51", "n_transient": "1000"},
     "method": {"mesh_frequency": "0.95", "reading": "swapped", "n_starts": "2", "n_values": "11"},
     "reproduction": {"n_values": "31", "n_fine": "51", "n_reached": "8", "phase_step": "60"},
     "impacts": {"mean_force": "0.3", "reading": "swapped", "n_x": "13", "n_v": "9"},

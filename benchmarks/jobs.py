@@ -1,0 +1,104 @@
+"""Diagrams and grids of starts, each in a process of its own, so that its memory is its own.
+
+``python -m benchmarks.jobs grid 50 100`` prints one line of JSON per size: seconds and peak memory.
+"""
+
+from __future__ import annotations
+
+import json
+import resource
+import subprocess
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from time import perf_counter, process_time
+
+import numpy as np
+
+import gearpair as gp
+
+ROOT = Path(__file__).parents[1]
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One job at one size.
+
+    Parameters
+    ----------
+    job : str
+        A name in `JOBS`.
+    size : int
+        Values of a diagram, or starts along each side of a grid.
+    seconds : float
+    processor_seconds : float
+        Summed over the cores; what the machine does for others does not count.
+    peak_mib : float
+        The process's peak memory so far, sizes before this one included.
+    """
+
+    job: str
+    size: int
+    seconds: float
+    processor_seconds: float
+    peak_mib: float
+
+
+def diagram(n: int) -> None:
+    """A frequency diagram, carried up and down."""
+    values = np.linspace(0.7, 1.7, n)
+    gp.sweep(gp.Oscillator(), "mesh_frequency", values)
+    gp.sweep(gp.Oscillator(), "mesh_frequency", values[::-1])
+
+
+def restarted(n: int) -> None:
+    """A frequency diagram, every value from the same start."""
+    gp.sweep(gp.Oscillator(), "mesh_frequency", np.linspace(0.7, 1.7, n), seeding="restart")
+
+
+def grid(n: int) -> None:
+    """The attractors that n x n starts lead to, at the baseline."""
+    gp.basins(gp.Oscillator(), np.linspace(-4.0, 4.0, n), np.linspace(-3.0, 3.0, n))
+
+
+JOBS = {"diagram": diagram, "restarted": restarted, "grid": grid}
+
+
+def peak_mib() -> float:
+    """The most memory that this process has held."""
+    try:  # on Linux getrusage counts the parent's memory from before the program was replaced
+        lines = Path("/proc/self/status").read_text().splitlines()
+        return next(float(line.split()[1]) for line in lines if line.startswith("VmHWM")) / 1024
+    except (OSError, StopIteration):
+        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        return peak / (2**20 if sys.platform == "darwin" else 2**10)
+
+
+def run_here(job: str, sizes: Sequence[int]) -> list[Measured]:
+    """Run a job at each size in this process, once small to compile and import."""
+    JOBS[job](2)
+    done = [Measured(job, 0, 0.0, 0.0, peak_mib())]
+    for size in sizes:
+        begin, busy = perf_counter(), process_time()
+        JOBS[job](size)
+        seconds, processor = perf_counter() - begin, process_time() - busy
+        done.append(Measured(job, size, seconds, processor, peak_mib()))
+    return done
+
+
+def run_apart(job: str, sizes: Sequence[int]) -> list[Measured]:
+    """`run_here` in a process of its own; size 0 is what it holds before the first."""
+    out = python("-m", "benchmarks.jobs", job, *map(str, sizes))
+    return [Measured(**json.loads(line)) for line in out.splitlines()]
+
+
+def python(*arguments: str) -> str:
+    """What another Python prints."""
+    command = [sys.executable, *arguments]
+    return subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+if __name__ == "__main__":
+    for measured in run_here(sys.argv[1], [int(size) for size in sys.argv[2:]]):
+        print(json.dumps(asdict(measured)))

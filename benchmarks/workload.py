@@ -1,0 +1,83 @@
+"""What a diagram, a grid of starts and a start of the interpreter cost, and how that grows."""
+
+from __future__ import annotations
+
+import resource
+from statistics import median
+from time import perf_counter
+
+from numba import config
+
+from benchmarks.jobs import JOBS, Measured, python, run_apart
+from gearpair.tables import Table
+
+VALUES = (100, 400, 1000)
+SIDES = (50, 100, 200)
+SPREAD = {"restarted": ("diagram from one start, 200 values", 200), "grid": ("50 x 50 starts", 50)}
+STARTS = {
+    "Python alone": "",
+    "import gearpair": "import gearpair",
+    "and the first steady state": "import gearpair as gp; gp.steady_state(gp.Oscillator())",
+    "and the first diagram": "import gearpair as gp; gp.sweep(gp.Oscillator(), 'mesh_frequency', [0.7, 0.8])",
+}
+
+
+def growth() -> Table:
+    """Time and memory against size, on all cores."""
+    diagrams, grids = run_apart("diagram", VALUES), run_apart("grid", SIDES)
+    rows = [_cost(m, f"diagram up and down, {m.size} values", 2 * m.size, diagrams[0]) for m in diagrams[1:]]
+    rows += [_cost(m, f"{m.size} x {m.size} starts", m.size**2, grids[0]) for m in grids[1:]]
+    return Table(("job", "seconds", "processor s", "us / motion", "peak MiB", "MiB for it"), rows)
+
+
+def _cost(m: Measured, name: str, motions: int, before: Measured) -> tuple[str, ...]:
+    per_motion = f"{m.processor_seconds / motions * 1e6:.0f}"
+    memory = f"{m.peak_mib:.0f}", f"{m.peak_mib - before.peak_mib:.0f}"
+    return name, f"{m.seconds:.2f}", f"{m.processor_seconds:.2f}", per_motion, *memory
+
+
+def cores(rounds: int = 5) -> Table:
+    """One core against all, in turns."""
+    every = config.NUMBA_NUM_THREADS
+    rows = []
+    for job, (name, size) in SPREAD.items():
+        JOBS[job](2)  # imported and compiled before the clock starts
+        pairs = [[_on_cores(n, job, size) for n in (1, every)] for _ in range(rounds)]
+        one, all_of_them = (median(side) for side in zip(*pairs, strict=True))
+        gain = median(a / b for a, b in pairs)
+        rows.append((name, f"{one:.2f}", every, f"{all_of_them:.2f}", f"{gain:.2f}"))
+    return Table(("job", "1 core, s", "cores", "all cores, s", "gain"), rows)
+
+
+def _on_cores(n: int, job: str, size: int) -> float:
+    """Seconds of a job in this process, spread over `n` threads."""
+    every, config.NUMBA_NUM_THREADS = config.NUMBA_NUM_THREADS, n
+    try:
+        begin = perf_counter()
+        JOBS[job](size)
+        return perf_counter() - begin
+    finally:
+        config.NUMBA_NUM_THREADS = every
+
+
+def start_up(rounds: int = 3) -> Table:
+    """A process's whole life, its kernels compiled by one before it."""
+    for code in list(STARTS.values())[2:]:
+        python("-c", code)
+    times: dict[str, list[tuple[float, float]]] = {name: [] for name in STARTS}
+    for _ in range(rounds):
+        for name, code in STARTS.items():
+            begin, busy = perf_counter(), _children_busy()
+            python("-c", code)
+            times[name].append((perf_counter() - begin, _children_busy() - busy))
+    rows = []
+    for name, kept in times.items():
+        seconds, processor = zip(*kept, strict=True)
+        rows.append((name, f"{median(seconds):.2f}", f"{min(seconds):.2f}", f"{median(processor):.2f}"))
+    return Table(("a second process", "seconds", "at best", "processor s"), rows)
+
+
+def _children_busy() -> float:
+    """Processor time that ended child processes have used."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
