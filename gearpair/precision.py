@@ -254,7 +254,7 @@ def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:
 
     Examples
     --------
-    >>> from gearpair import sweep
+    >>> from gearpair import runge_kutta_sweep, sweep
     >>> osc, values = Oscillator(), [1.65, 1.7]
     >>> exact = sweep(osc, "mesh_frequency", values)
     >>> numerical_chaos(exact, runge_kutta_sweep(osc, "mesh_frequency", values)).tolist()
@@ -283,7 +283,7 @@ def disorder_table(exact: xr.Dataset, drawn: Mapping[str, xr.Dataset]) -> Table:
 
     Examples
     --------
-    >>> from gearpair import sweep
+    >>> from gearpair import runge_kutta_sweep, sweep
     >>> osc, values = Oscillator(), [1.65, 1.7]
     >>> exact = sweep(osc, "mesh_frequency", values)
     >>> disorder_table(exact, {"RK45": runge_kutta_sweep(osc, "mesh_frequency", values)})
