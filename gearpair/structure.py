@@ -11,6 +11,8 @@ from gearpair.branches import Bifurcation, Branch
 from gearpair.ranges import IMPACT_NAMES, MotionRange
 from gearpair.tables import Table
 
+SNAP = 2e-4  # relative distance within which the end of a stable range is the bifurcation found there
+
 
 def coexistence(
     branches: list[Branch], lower: float, upper: float, *, shortest: float = 0.0
@@ -33,6 +35,9 @@ def coexistence(
         Orbits of one period and impact state on one branch count once each.
     """
     pieces = [piece for branch in branches for piece in _stable_pieces(branch) if piece[1] - piece[0] >= shortest]
+    # A branch that ends close to a bifurcation ends at it.
+    located = np.array([b.value for branch in branches for b in branch.bifurcations] or [np.inf])
+    pieces = [(_nearest(located, low), _nearest(located, high), name) for low, high, name in pieces]
     edges = sorted({lower, upper, *(v for low, high, _ in pieces for v in (low, high) if lower < v < upper)})
     ranges: list[tuple[float, float, tuple[str, ...]]] = []
     for left, right in zip(edges, edges[1:], strict=False):
@@ -77,6 +82,12 @@ def stable_ranges(branches: Iterable[Branch], *, shortest: float = 0.0) -> tuple
         else:
             joined.append(MotionRange(low, high, motion))
     return tuple(run for run in joined if run.width >= shortest)
+
+
+def _nearest(located: np.ndarray, value: float) -> float:
+    """The bifurcation at `value`, or `value` itself where none is within `SNAP` of it."""
+    near = float(located[np.argmin(np.abs(located - value))])
+    return near if abs(near - value) <= SNAP * max(1.0, abs(value)) else value
 
 
 def _stable_pieces(branch: Branch) -> list[tuple[float, float, str]]:

@@ -16,6 +16,8 @@ PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED, NOT_RUN = 0, 1, 2, 3, 4, 5
 # A return this close, relative to max(1, |X|, |X'|), is worth a Newton search; the stable orbit it
 # finds must lie within CAPTURED of the motion.
 RETURNED, CAPTURED = 1e-8, 1e-6
+# Multipliers nearer to the unit circle than this attract nothing in any time; without damping they lie on it.
+STABLE = 1.0 - 1e-9
 # After the whole transient slower motions count too: a stable orbit within NEAR that the motion approaches.
 NEAR = 1e-2
 # Section points of one cycle closer than this are one point: its period is shorter than it returned with.
@@ -77,7 +79,7 @@ def find_return(cells, x, v, max_period, closeness, capture, m, series):
             return status, 0, x, v, x, v
         if distance(x, v, x0, v0) <= closeness:
             converged, xs, vs, _residual = newton(cells, x, v, period, m, series)
-            if converged and spectral_radius(m) < 1.0 and distance(x, v, xs, vs) <= capture:
+            if converged and spectral_radius(m) < STABLE and distance(x, v, xs, vs) <= capture:
                 return OK, minimal_period(cells, xs, vs, period, m, series), x, v, xs, vs
     return OK, 0, x, v, x, v
 
