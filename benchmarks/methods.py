@@ -82,7 +82,7 @@ def compiled_rk45(osc: gp.Oscillator, tolerance: float) -> Run:
     """This library's Dormand-Prince, step for step scipy's RK45."""
 
     def run(x: float, v: float, n: int) -> tuple[float, float]:
-        x1, v1 = gp.runge_kutta_section(osc, x, v, n, n_kept=1, rtol=tolerance, atol=tolerance)[0]
+        x1, v1 = gp.methods.runge_kutta_section(osc, x, v, n, n_kept=1, rtol=tolerance, atol=tolerance)[0]
         return float(x1), float(v1)
 
     return run

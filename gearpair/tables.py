@@ -3,10 +3,28 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape, unescape
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gearpair._flow.closed_form import DEGREE, REACH, TERMS
+from gearpair.bifurcations.branches import Branch
+from gearpair.bifurcations.locating import Bifurcation
+from gearpair.bifurcations.structure import coexistence
+from gearpair.methods.certificates import Segment
+from gearpair.methods.precision import numerical_chaos
+from gearpair.motion.datasets import symbol
+from gearpair.motion.names import IMPACT_NAMES
+from gearpair.motion.steady import SteadyState
+from gearpair.oscillator import Oscillator
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 # Plain names of symbols, as they are set in HTML.
 SYMBOLS = {
@@ -105,3 +123,205 @@ def _is_number(cell: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def motion_table(states: Mapping[str, SteadyState], parameter: str, digits: int = 3) -> Table:
+    """Settled motions by name: the value of a parameter, extremes, impact state, modulus of the larger multiplier.
+
+    Of a motion that is not periodic only the value is told: the rest depends on the span that was looked at.
+
+    Examples
+    --------
+    >>> motion_table({"the baseline": steady_state(Oscillator())}, "damping_ratio")
+    motion         zeta  X_min  X_max  impact state  largest multiplier
+    -------------------------------------------------------------------
+    the baseline  0.020  0.118  1.492  single-sided               0.698
+    """
+    rows = []
+    for name, state in states.items():
+        cells = [f"{state.x_min:.{digits}f}", f"{state.x_max:.{digits}f}", IMPACT_NAMES[state.impact_state or ""]]
+        cells.append(f"{abs(state.multipliers[0]):.{digits}f}")
+        value = f"{state.oscillator.parameter(parameter):.{digits}f}"
+        rows.append([name, value, *(cells if state.period else ["–"] * len(cells))])
+    return Table(["motion", symbol(parameter), "X_min", "X_max", "impact state", "largest multiplier"], rows)
+
+
+def bifurcation_table(branches: Iterable[Branch], *, digits: int = 5) -> Table:
+    """Every bifurcation of a set of branches, by rising parameter.
+
+    Parameters
+    ----------
+    branches : iterable of Branch
+        Along one parameter.
+    digits : int
+        Decimals of the parameter.
+
+    Returns
+    -------
+    Table
+        Kind, value, the orbit's period, contacts per cycle on the drive and coast side (before and after
+        a grazing), and impact state.
+    """
+    found = sorted((b for branch in branches for b in branch.bifurcations), key=lambda b: (b.value, b.kind))
+    rows = [[b.kind, f"{b.value:.{digits}f}", b.period, _contacts(b), IMPACT_NAMES[b.impact_state]] for b in found]
+    return Table(["kind", found[0].parameter if found else "value", "period", "contacts", "impact state"], rows)
+
+
+def _contacts(bifurcation: Bifurcation) -> str:
+    """Contacts per cycle (drive + coast), on both sides of a grazing."""
+    first, second = (f"{drive} + {coast}" for drive, coast in bifurcation.contacts)
+    return first if first == second else f"{first} | {second}"
+
+
+def coexistence_table(
+    branches: Sequence[Branch], lower: float, upper: float, *, shortest: float, digits: int = 4
+) -> Table:
+    """Which stable orbits of a set of branches exist together, one row a range; see `coexistence`."""
+    rows = []
+    for low, high, names in coexistence(list(branches), lower, upper, shortest=shortest):
+        counted = Counter(names)
+        words = [name if n == 1 else f"{n} of {name}" for name, n in counted.items()]
+        text = ", ".join(_readable(word) for word in words) or "none up to the longest period followed"
+        rows.append([f"{low:.{digits}f}", f"{high:.{digits}f}", text])
+    return Table(["from", "to", "stable orbits"], rows)
+
+
+def _readable(name: str) -> str:
+    words = name.split()
+    state = IMPACT_NAMES[words[-1]]
+    return " ".join(words[:-1]) + f" ({state})"
+
+
+def cascade_table(cascades: Iterable[Sequence[Bifurcation]], *, digits: int = 6) -> Table:
+    """Period-doubling sequences, one row each: the first flips and the ratios of the gaps between them.
+
+    Parameters
+    ----------
+    cascades : iterable of sequences of Bifurcation
+        Of `doubling_cascade`.
+    digits : int
+        Decimals of the parameter.
+
+    Returns
+    -------
+    Table
+        The sequence of periods, its flips, and the ratios of successive gaps (4.669 in the limit).
+    """
+    rows = []
+    for flips in cascades:
+        values = [flip.value for flip in flips]
+        gaps = np.diff(values)
+        ratios = gaps[:-1] / gaps[1:]
+        rows.append(
+            [
+                " ".join(str(flip.period) for flip in flips),
+                " ".join(f"{value:.{digits}f}" for value in values),
+                " ".join(f"{ratio:.2f}" for ratio in ratios),
+            ]
+        )
+    return Table(["periods", "flips at", "ratios of the gaps"], rows)
+
+
+def disorder_table(exact: xr.Dataset, drawn: Mapping[str, xr.Dataset]) -> Table:
+    """How often a diagram shows disorder where the motion is periodic, and a period where it is not.
+
+    Parameters
+    ----------
+    exact : xarray.Dataset
+        Of `sweep`.
+    drawn : mapping of str to xarray.Dataset
+        Diagrams of the same values by name, of `runge_kutta_sweep` or `plain_sweep`.
+
+    Returns
+    -------
+    Table
+        Shares of the values, as `coarse_share` writes them.
+
+    Examples
+    --------
+    >>> from gearpair import runge_kutta_sweep, sweep
+    >>> osc, values = Oscillator(), [1.65, 1.7]
+    >>> exact = sweep(osc, "mesh_frequency", values)
+    >>> disorder_table(exact, {"RK45": runge_kutta_sweep(osc, "mesh_frequency", values)})
+    drawn by  disordered though periodic  periodic though not
+    ---------------------------------------------------------
+    RK45      all                         under 10%
+    """
+    rows = []
+    for name, diagram in drawn.items():
+        missed = (exact.status.values != "periodic") & (diagram.period.values > 0)
+        rows.append([name, coarse_share(numerical_chaos(exact, diagram)), coarse_share(missed)])
+    return Table(["drawn by", "disordered though periodic", "periodic though not"], rows)
+
+
+def coarse_share(where: ArrayLike) -> str:
+    """The share of true values, so coarse that rounding on another machine hardly changes it.
+
+    Parameters
+    ----------
+    where : array_like of bool
+
+    Returns
+    -------
+    str
+        To the nearest 10%; ``"under 10%"`` and ``"over 90%"`` near the ends, ``"all"`` if all are.
+
+    Examples
+    --------
+    >>> coarse_share([True, False, False]), coarse_share([True] * 29 + [False]), coarse_share([False])
+    ('30%', 'over 90%', 'under 10%')
+    """
+    share = float(np.mean(np.asarray(where, dtype=bool)))
+    if share == 1.0:
+        return "all"
+    return "under 10%" if share < 0.1 else "over 90%" if share > 0.9 else f"{round(share, 1):.0%}"
+
+
+def certificate_table(pieces: Iterable[Segment]) -> Table:
+    """How many segments each certificate settles, and how many of these hold a crossing.
+
+    Parameters
+    ----------
+    pieces : iterable of Segment
+
+    Returns
+    -------
+    Table
+
+    Examples
+    --------
+    >>> len(certificate_table(segments(Oscillator(), 1.0, 0.0)).rows)
+    3
+    """
+    kinds = [(piece.certificate, piece.crossing is not None) for piece in pieces]
+    rows = [
+        [f"{i}. {name}", sum(kind == name for kind, _ in kinds), kinds.count((name, True))]
+        for i, name in enumerate(("hull", "monotone", "steps"), start=1)
+    ]
+    return Table(["certificate", "segments", "with a crossing"], rows)
+
+
+def series_table(osc: Oscillator) -> Table:
+    """The constants of the power series and the cells that `osc` needs.
+
+    Parameters
+    ----------
+    osc : Oscillator
+
+    Returns
+    -------
+    Table
+
+    Examples
+    --------
+    >>> series_table(Oscillator()).rows[0]
+    ('degree of the series', '15')
+    """
+    neglected = REACH**TERMS / float(np.prod(np.arange(1.0, TERMS + 1)))
+    rows = [
+        ["degree of the series", f"{DEGREE}"],
+        ["reach: the most that a rate turns in a cell", f"{REACH:.1f}"],
+        ["first neglected term", f"{neglected:.0e}"],
+        ["cells in the mesh period", f"{len(osc._cells.level)}"],
+    ]
+    return Table(["of the closed form", "value"], rows)

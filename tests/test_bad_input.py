@@ -118,8 +118,10 @@ CALLS = {
     "v must be a non-empty sequence of numbers, got shape (0,)": lambda: gp.basins(BASELINE, [0.0], []),
     "x_min must not exceed x_max, got x_min = 2.0 and x_max = 1.0": lambda: gp.impact_state(2.0, 1.0),
     "x_max must be a finite number, got nan": lambda: gp.impact_state(2.0, NAN),
-    "n_kept must be at most n_periods + 1 = 3, got 4": lambda: gp.runge_kutta_section(BASELINE, 0.0, 0.0, 2, n_kept=4),
-    "closeness must be a finite number above 0, got 0.0": lambda: gp.runge_kutta_sweep(
+    "n_kept must be at most n_periods + 1 = 3, got 4": lambda: gp.methods.runge_kutta_section(
+        BASELINE, 0.0, 0.0, 2, n_kept=4
+    ),
+    "closeness must be a finite number above 0, got 0.0": lambda: gp.methods.runge_kutta_sweep(
         BASELINE, "mesh_frequency", [0.7], closeness=0.0
     ),
     "n must be a whole number of at least 0, got 2.5": lambda: gp.StiffnessWave((0.0,), (1.0,)).harmonics(2.5),

@@ -104,7 +104,7 @@ def test_beyond_a_grazing_multipliers_move_like_the_square_root():
 def test_a_doubled_branch_begins_and_ends_at_flips(printed_branch):
     """Followed both ways it merges with the orbit of half its period exactly at that orbit's flips."""
     flips = [b for b in printed_branch.bifurcations if b.kind == "flip" and b.contacts[0][1] == 0]
-    doubled = gp.continue_orbit(gp.doubled_orbit(flips[0]), "mesh_frequency", 0.6, 1.7)
+    doubled = gp.continue_orbit(gp.bifurcations.doubled_orbit(flips[0]), "mesh_frequency", 0.6, 1.7)
     assert doubled.period == 4 and all("merges" in end for end in doubled.ends)
     assert sorted([doubled.values[0], doubled.values[-1]]) == pytest.approx(
         sorted(f.value for f in flips[:2]), abs=1e-8
@@ -117,7 +117,7 @@ def test_the_period_doubling_sequence_has_feigenbaums_ratio():
     orbit = next(o for o in gp.find_orbits(osc, 3, n_starts=200) if o.period == 3 and o.stable)
     branch = gp.continue_orbit(orbit, "mesh_frequency", 0.91, 0.9195)
     first = next(b for b in branch.bifurcations if b.kind == "flip")
-    flips = gp.doubling_cascade(first, 5)
+    flips = gp.bifurcations.doubling_cascade(first, 5)
     assert [flip.period for flip in flips] == [3, 6, 12, 24, 48]
     gaps = -np.diff([flip.value for flip in flips])
     assert np.all(gaps > 0)
@@ -127,7 +127,7 @@ def test_the_period_doubling_sequence_has_feigenbaums_ratio():
 def test_coexisting_orbits_are_those_that_starts_settle_on():
     """At frequencies between 0.7 and 1.05 the stable branches up to period 2 are the attractors of a grid of starts."""
     branches = gp.find_branches(BASELINE, "mesh_frequency", 0.7, 1.05, max_period=2, n_values=5)
-    ranges = gp.coexistence(branches, 0.7, 1.05, shortest=1e-4)
+    ranges = gp.bifurcations.coexistence(branches, 0.7, 1.05, shortest=1e-4)
     for omega in (0.72, 0.75, 1.045):
         grid = gp.basins(BASELINE.replace(mesh_frequency=omega), np.linspace(-3, 3, 25), np.linspace(-2, 2, 25))
         reached = {

@@ -26,17 +26,17 @@ def logistic(r, n=2000):
     ],
 )
 def test_known_series(series, low, high):
-    assert low <= gp.zero_one_test(series) <= high
+    assert low <= gp.motion.zero_one_test(series) <= high
 
 
 def test_it_agrees_with_the_exponent_where_that_is_resolved():
     """Two independent judges of the same motions."""
     result = gp.sweep(gp.Oscillator(), "mesh_frequency", [0.72, 0.86, 1.02, 1.219, 1.3, 1.5], n_samples=2000)
     for status, x in zip(result.status.values, result.x.values, strict=True):
-        assert (gp.zero_one_test(x) > 0.5) == (status == "aperiodic")
+        assert (gp.motion.zero_one_test(x) > 0.5) == (status == "aperiodic")
 
 
 @pytest.mark.parametrize(("values", "sentence"), [(np.ones(10), "at least 200"), ([np.nan] * 300, "finite")])
 def test_bad_input_is_named(values, sentence):
     with pytest.raises(ValueError, match=sentence):
-        gp.zero_one_test(values)
+        gp.motion.zero_one_test(values)

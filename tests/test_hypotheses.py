@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair import hypotheses as hy
+from gearpair.article import trials as hy
 
 
 def test_the_enumeration_is_complete_and_without_repeats():

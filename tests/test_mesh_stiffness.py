@@ -9,20 +9,20 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from gearpair.compliance import (
+from gearpair.stiffness import StiffnessWave
+from gearpair.teeth.compliance import (
     foundation_coefficients,
     foundation_compliance,
     hertz_compliance,
     in_foundation_range,
     tooth_compliance,
 )
-from gearpair.finite_elements import FiniteElementBody, double_contact_stiffness, finite_element_bodies
-from gearpair.gear_body import ring_compliance
-from gearpair.iso6336 import iso_stiffness
-from gearpair.meshing import MeshStiffness, mesh_stiffness
-from gearpair.spurpair import SpurPair
-from gearpair.stiffness import StiffnessWave
-from gearpair.tooth_profile import ToothProfile
+from gearpair.teeth.finite_elements import FiniteElementBody, double_contact_stiffness, finite_element_bodies
+from gearpair.teeth.gear_body import ring_compliance
+from gearpair.teeth.iso6336 import iso_stiffness
+from gearpair.teeth.meshing import MeshStiffness, mesh_stiffness
+from gearpair.teeth.spurpair import SpurPair
+from gearpair.teeth.tooth_profile import ToothProfile
 
 NU = 0.3
 THREE_PAIRS = SpurPair(pinion_teeth=40, gear_teeth=60, addendum=1.3, clearance=0.2, tip_radius=0.1)
@@ -409,7 +409,7 @@ def test_iso_outside_its_range(shifts: tuple[float, float], sentence: str) -> No
         iso_stiffness(pair)
 
 
-# --- finite elements: results kept in gearpair/data/finite_elements.json --------------------------
+# --- finite elements: results kept in gearpair/teeth/data/finite_elements.json --------------------------
 
 BODIES = finite_element_bodies()
 

@@ -5,7 +5,7 @@ import pytest
 
 import gearpair as gp
 from gearpair._flow.cycle import map_at
-from gearpair.orbits import multipliers_of
+from gearpair.motion.stability import multipliers_of
 
 BASELINE = gp.Oscillator()
 SWAPPED = gp.Oscillator(stiffness=gp.StiffnessWave.rectangular(reading="swapped"))

@@ -7,7 +7,8 @@ from matplotlib import pyplot as plt
 from matplotlib.colors import to_rgb
 
 import gearpair as gp
-from gearpair import plotting, published
+from gearpair import plotting
+from gearpair.article import published
 
 matplotlib.use("Agg")
 
@@ -59,13 +60,15 @@ def test_bifurcation_diagram_draws_each_cycle_once_in_its_colour(result):
     ax = plotting.bifurcation_diagram(result, title="rising")
     lines = labelled(ax)
     for name, period in (("period 2", 2), ("period 4", 4)):
-        chosen = gp.motion_names(result) == name
+        chosen = gp.motion.motion_names(result) == name
         x, y = lines[name].get_data()
         shown = np.isfinite(y)
         assert np.array_equal(y[shown], result.x.values[chosen, :period].ravel())
         assert np.array_equal(x[shown], np.repeat(result.mesh_frequency.values[chosen], period))
         assert lines[name].get_color() == plotting.motion_colour(name)
-    assert np.array_equal(lines["chaos"].get_ydata(), result.x.values[gp.motion_names(result) == "chaos"].ravel())
+    assert np.array_equal(
+        lines["chaos"].get_ydata(), result.x.values[gp.motion.motion_names(result) == "chaos"].ravel()
+    )
     assert r"\Omega_h" in ax.get_xlabel()
     assert legend_texts(ax) == ["period 2", "period 4", "chaos"]
     assert ax.texts[0].get_text() == "rising"
@@ -100,12 +103,12 @@ def test_range_strips_set_runs_under_the_published_ranges(result):
     assert np.allclose(above, [(r.lower, r.upper - r.lower) for r in published.ranges("mesh_frequency")])
     below = [(x, x + width) for below, x, width in bars if below]
     half = 0.0025  # of the smallest step
-    assert np.allclose(below, [(r.lower - half, r.upper + half) for r in gp.motion_ranges(result)])
+    assert np.allclose(below, [(r.lower - half, r.upper + half) for r in gp.motion.motion_ranges(result)])
     assert "complex" in [text.get_text() for text in ax.texts]
 
 
 def test_range_lanes_give_each_motion_its_lane():
-    found = [gp.MotionRange(0.0, 0.02, "period 1"), gp.MotionRange(0.01, 0.015, "period 3")]
+    found = [gp.motion.MotionRange(0.0, 0.02, "period 1"), gp.motion.MotionRange(0.01, 0.015, "period 3")]
     ax = plotting.range_lanes({"published": published.ranges("damping_ratio"), "found": found})
     assert [label.get_text() for label in ax.get_yticklabels()] == ["period 1", "period 3", "chaotic"]
     full = [(bar.get_x(), bar.get_width()) for bar in ax.patches if bar.get_alpha() is None]
@@ -114,7 +117,7 @@ def test_range_lanes_give_each_motion_its_lane():
 
 
 def test_shares_are_stacked_to_one():
-    shares = gp.motion_shares(OSC, "damping_ratio", [0.01, 0.02, 0.05], [-2.0, 0.0, 1.0], [0.0, 1.0])
+    shares = gp.motion.motion_shares(OSC, "damping_ratio", [0.01, 0.02, 0.05], [-2.0, 0.0, 1.0], [0.0, 1.0])
     ax = plotting.motion_shares(shares)
     tops = [band.get_paths()[0].vertices[:, 1].max() for band in ax.collections]
     assert tops[-1] == pytest.approx(1.0)
@@ -179,7 +182,7 @@ def test_gallery_has_a_row_for_each_motion():
 def test_basins_and_impact_states_colour_every_start(plane):
     ax = plotting.basins(plane)
     assert np.array_equal(ax.collections[0].get_array(), plane.attractor.values + 1)
-    assert legend_texts(ax) == gp.attractor_names(plane)
+    assert legend_texts(ax) == gp.motion.attractor_names(plane)
     ax = plotting.impact_states(plane)
     shades = ax.collections[0].get_array()
     assert len(np.unique(shades)) == len(np.unique(plane.impact_state))

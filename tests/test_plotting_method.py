@@ -14,12 +14,12 @@ CHAOTIC = gp.Oscillator(mesh_frequency=1.219)
 
 @pytest.fixture(scope="module")
 def pieces():
-    return [piece for x in np.linspace(-1.5, 1.5, 16) for piece in gp.segments(CHAOTIC, float(x), 0.0, 20)]
+    return [piece for x in np.linspace(-1.5, 1.5, 16) for piece in gp.methods.segments(CHAOTIC, float(x), 0.0, 20)]
 
 
 @pytest.fixture(scope="module")
 def telling(pieces):
-    return gp.telling_segments(pieces)
+    return gp.methods.telling_segments(pieces)
 
 
 def line(ax, label):
@@ -28,7 +28,7 @@ def line(ax, label):
 
 def test_segments_are_those_of_the_trajectory():
     """They join, end where the map ends, and their crossings are its impacts."""
-    parts = gp.segments(CHAOTIC, 1.3, 0.2, 5)
+    parts = gp.methods.segments(CHAOTIC, 1.3, 0.2, 5)
     for before, after in zip(parts, parts[1:], strict=False):
         end = before.span if before.crossing is None else before.crossing
         assert before.start + end * before.width == pytest.approx(after.start, abs=1e-12)
@@ -65,14 +65,14 @@ def test_certificates_hold(pieces):
 
 
 def test_certificate_table_counts_every_segment(pieces):
-    rows = gp.certificate_table(pieces).rows
+    rows = gp.tables.certificate_table(pieces).rows
     assert sum(int(row[1]) for row in rows) == len(pieces)
     assert rows[0][2] == "0"
 
 
 def test_recut_cells_change_only_rounding():
     x, v = np.array([-1.0, 0.3, 1.5]), np.array([0.4, 0.0, -0.2])
-    here, there = gp.stroboscopic_map(CHAOTIC, x, v), gp.stroboscopic_map(gp.recut(CHAOTIC), x, v)
+    here, there = gp.stroboscopic_map(CHAOTIC, x, v), gp.stroboscopic_map(gp.methods.recut(CHAOTIC), x, v)
     assert np.abs(np.array(here) - np.array(there)).max() < 1e-13
 
 
@@ -80,12 +80,12 @@ def test_a_missing_impact_is_seen():
     impacts = gp.trajectory(CHAOTIC, 0.5, 0.0, 3).impacts
     none = gp.trajectory(gp.Oscillator(mean_force=3.0), 4.0, 0.0, 1).impacts
     assert len(none) == 0
-    assert gp.impact_time_error(none, impacts) == np.inf
-    assert gp.impact_time_error(impacts, none) == 0.0
+    assert gp.methods.impact_time_error(none, impacts) == np.inf
+    assert gp.methods.impact_time_error(impacts, none) == 0.0
 
 
 def test_work_precision_errors_fall_with_the_tolerance():
-    measured = gp.work_precision(CHAOTIC, 1.0, 0.0, n_starts=3, tolerances=[1e-3, 1e-9])
+    measured = gp.methods.work_precision(CHAOTIC, 1.0, 0.0, n_starts=3, tolerances=[1e-3, 1e-9])
     errors = {method: [m.error for m in measured if m.method == method] for method in {m.method for m in measured}}
     exact = errors.pop("exact flow")
     assert exact[0] < 1e-13
@@ -98,15 +98,15 @@ def test_work_precision_errors_fall_with_the_tolerance():
 def test_numerical_chaos_is_red():
     values = [1.219, 1.65, 1.7]
     exact = gp.sweep(CHAOTIC, "mesh_frequency", values)
-    loose = gp.runge_kutta_sweep(CHAOTIC, "mesh_frequency", values)
-    tight = gp.runge_kutta_sweep(CHAOTIC, "mesh_frequency", values, rtol=1e-9, atol=1e-12)
-    assert gp.numerical_chaos(exact, loose).tolist() == [False, True, True]
-    assert not gp.numerical_chaos(exact, tight).any()
-    assert not gp.numerical_chaos(exact, gp.plain_sweep(CHAOTIC, "mesh_frequency", values)).any()
+    loose = gp.methods.runge_kutta_sweep(CHAOTIC, "mesh_frequency", values)
+    tight = gp.methods.runge_kutta_sweep(CHAOTIC, "mesh_frequency", values, rtol=1e-9, atol=1e-12)
+    assert gp.methods.numerical_chaos(exact, loose).tolist() == [False, True, True]
+    assert not gp.methods.numerical_chaos(exact, tight).any()
+    assert not gp.methods.numerical_chaos(exact, gp.methods.plain_sweep(CHAOTIC, "mesh_frequency", values)).any()
     red = line(plotting.drawn_diagram(exact, loose), "numerical chaos")
     assert set(red.get_xdata()) == {1.65, 1.7}
     with pytest.raises(ValueError, match="same values of mesh_frequency"):
-        gp.numerical_chaos(exact, gp.plain_sweep(CHAOTIC, "mesh_frequency", [1.65]))
+        gp.methods.numerical_chaos(exact, gp.methods.plain_sweep(CHAOTIC, "mesh_frequency", [1.65]))
 
 
 def test_pictures_of_certificates(telling):

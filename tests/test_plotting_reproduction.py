@@ -8,8 +8,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from gearpair import hypotheses as hy
-from gearpair import plotting, published
+from gearpair import plotting
+from gearpair.article import published
+from gearpair.article import trials as hy
 
 
 @pytest.fixture(autouse=True)

@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from gearpair import mesh_stiffness, plotting, published
-from gearpair.finite_elements import MEASURES, finite_element_bodies
-from gearpair.spurpair import SpurPair
+from gearpair import mesh_stiffness, plotting
+from gearpair.article import published
+from gearpair.teeth.finite_elements import MEASURES, finite_element_bodies
+from gearpair.teeth.spurpair import SpurPair
 
 matplotlib.use("Agg")
 

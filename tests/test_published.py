@@ -8,7 +8,7 @@ import dataclasses
 import pytest
 
 import gearpair as gp
-from gearpair import published
+from gearpair.article import published
 
 ITEMS_PER_SECTION = {"M": 6, "K": 5, "N": 3, "F": 14, "D": 6, "I": 5, "C": 5}
 

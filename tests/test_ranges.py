@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 import gearpair as gp
-from gearpair import published
+from gearpair.article import published
 
 OSC = gp.Oscillator()
 
@@ -29,28 +29,28 @@ DOWN = made_up([3, 3, 3, 0, 2, 2, 1, 1], np.arange(8.0)[::-1])
 
 def test_runs_do_not_depend_on_the_direction():
     expected = [(0, 2, "period 1"), (3, 3, "period 2"), (4, 5, "chaos"), (6, 7, "period 3")]
-    assert [(r.lower, r.upper, r.motion) for r in gp.motion_ranges(UP)] == expected
+    assert [(r.lower, r.upper, r.motion) for r in gp.motion.motion_ranges(UP)] == expected
     flipped = UP.isel(mesh_frequency=slice(None, None, -1))
-    assert gp.motion_ranges(flipped) == gp.motion_ranges(UP)
+    assert gp.motion.motion_ranges(flipped) == gp.motion.motion_ranges(UP)
 
 
 def test_what_two_sweeps_saw_is_joined():
     """Each end is the one that some sweep followed the motion to; chaos has none."""
-    found = [(r.lower, r.upper, r.motion) for r in gp.found_ranges(UP, DOWN)]
+    found = [(r.lower, r.upper, r.motion) for r in gp.motion.found_ranges(UP, DOWN)]
     assert found == [(0, 2, "period 1"), (2, 3, "period 2"), (5, 7, "period 3")]
-    assert [r.motion for r in gp.found_ranges(UP, DOWN, narrowest=1.5)] == ["period 1", "period 3"]
+    assert [r.motion for r in gp.motion.found_ranges(UP, DOWN, narrowest=1.5)] == ["period 1", "period 3"]
 
 
 def test_sweeps_over_two_parameters_are_not_joined():
     with pytest.raises(ValueError, match="over one parameter, got mesh_frequency, damping_ratio"):
-        gp.found_ranges(UP, made_up([1], [0.1], "damping_ratio"))
+        gp.motion.found_ranges(UP, made_up([1], [0.1], "damping_ratio"))
     with pytest.raises(ValueError, match="a result over v, x"):
-        gp.motion_ranges(gp.basins(OSC, [0.0, 1.0], [0.0, 1.0]))
+        gp.motion.motion_ranges(gp.basins(OSC, [0.0, 1.0], [0.0, 1.0]))
 
 
 def test_representatives_are_the_motions_named():
     result = gp.sweep(OSC, "mesh_frequency", [0.7, 0.71, 0.72, 0.78, 1.2, 1.21, 1.22])
-    shown = gp.representatives(OSC, result, motions=["period 2", "period 17", "chaos"], near={"chaos": 1.219})
+    shown = gp.motion.representatives(OSC, result, motions=["period 2", "period 17", "chaos"], near={"chaos": 1.219})
     assert list(shown) == ["period 2", "chaos"]  # no period 17 there
     assert shown["period 2"].oscillator.mesh_frequency == 0.71
     assert (shown["chaos"].oscillator.mesh_frequency, shown["chaos"].status) == (1.22, "aperiodic")
@@ -61,17 +61,17 @@ def test_a_chaotic_transient_represents_nothing():
     osc = OSC.replace(damping_ratio=0.0075)
     result = gp.sweep(osc, "mesh_frequency", [0.7], x=0.0, v=0.0)
     result["status"][:] = "aperiodic"
-    assert gp.representatives(osc, result, motions=["chaos"]) == {}
+    assert gp.motion.representatives(osc, result, motions=["chaos"]) == {}
 
 
 def test_following_both_ways_keeps_to_one_motion():
     """The large period 1 of the baseline lives up to about 0.92, where the standard start finds periods 2 to 8."""
     state = gp.steady_state(OSC, -2.0, 1.5)
     assert (state.period, state.impact_state) == (1, "double")
-    falling, rising = gp.follow(state, "mesh_frequency", [0.68, 0.69, 0.71, 0.72])
+    falling, rising = gp.motion.follow(state, "mesh_frequency", [0.68, 0.69, 0.71, 0.72])
     assert falling.mesh_frequency.values.tolist() == [0.69, 0.68]
     assert rising.mesh_frequency.values.tolist() == [0.71, 0.72]
-    life = gp.range_of(state, "mesh_frequency", np.arange(0.6, 1.0, 0.004))
+    life = gp.motion.range_of(state, "mesh_frequency", np.arange(0.6, 1.0, 0.004))
     assert life.motion == "period 1"
     assert 0.90 < life.upper < 0.93
 
@@ -80,22 +80,22 @@ def test_a_jump_to_another_motion_of_the_same_period_ends_a_life():
     """The large period 2 ends above 1.05, but the sweep falls onto the small period 2 that lives there."""
     state = gp.steady_state(OSC.replace(mesh_frequency=1.3), -2.0, 0.0)
     values = np.arange(1.04, 1.3, 0.002)
-    below = gp.follow(state, "mesh_frequency", values)[0]
+    below = gp.motion.follow(state, "mesh_frequency", values)[0]
     assert below.period.values[-1] == 2 and below.x_max.values[-1] < 1.5 < state.x_max
-    assert 1.06 < gp.range_of(state, "mesh_frequency", values).lower < 1.1
+    assert 1.06 < gp.motion.range_of(state, "mesh_frequency", values).lower < 1.1
 
 
 def test_shares_count_the_starts():
-    shares = gp.motion_shares(OSC, "damping_ratio", [0.02], [-2.0, 0.0, 1.0], [0.0])
+    shares = gp.motion.motion_shares(OSC, "damping_ratio", [0.02], [-2.0, 0.0, 1.0], [0.0])
     assert shares.motion.values.tolist() == ["period 1", "period 2"]
     assert shares.share.values.tolist() == [[1 / 3, 2 / 3]]
 
 
 def test_names_of_attractors_leave_out_small_basins():
     plane = gp.basins(OSC, np.linspace(-4, 4, 17), np.linspace(-3, 3, 13))
-    names = gp.attractor_names(plane, 0.1)
+    names = gp.motion.attractor_names(plane, 0.1)
     assert names == ["period 1, double-sided", "period 2, single-sided"]
-    assert len(gp.attractor_names(plane)) > 2
+    assert len(gp.motion.attractor_names(plane)) > 2
 
 
 STATED = (
@@ -104,14 +104,14 @@ STATED = (
     published.Range("C", "mesh_frequency", 4.0, 8.0, "periodic", 2),
 )
 FOUND = (
-    gp.MotionRange(0.0, 1.5, "period 1"),
-    gp.MotionRange(4.5, 6.5, "period 2"),
-    gp.MotionRange(6.0, 8.0, "period 4"),
+    gp.motion.MotionRange(0.0, 1.5, "period 1"),
+    gp.motion.MotionRange(4.5, 6.5, "period 2"),
+    gp.motion.MotionRange(6.0, 8.0, "period 4"),
 )
 
 
 def test_agreement_is_the_share_of_the_published_range():
-    rows = gp.compare_ranges(STATED, FOUND, digits=1).rows
+    rows = gp.article.compare_ranges(STATED, FOUND, digits=1).rows
     assert [row[-1] for row in rows] == ["75%", "–", "50%"]
     assert rows[2][3] == "period 2 (4.5–6.5), period 4 (6.0–8.0)"
     assert rows[1][3] == "none this wide"
@@ -119,17 +119,19 @@ def test_agreement_is_the_share_of_the_published_range():
 
 def test_boundaries_are_matched_by_the_same_change():
     stated = [published.Boundary("B", "mesh_frequency", 2.0, "crisis"), published.Boundary("C", "mesh_frequency", 4.0)]
-    rows = gp.compare_boundaries(stated, STATED, FOUND, gap=1.0, digits=2).rows
+    rows = gp.article.compare_boundaries(stated, STATED, FOUND, gap=1.0, digits=2).rows
     assert rows[0] == ("B", "2.00", "period 1 to complex", "crisis", "1.50", "-0.50")
     assert rows[1] == ("C", "4.00", "complex to period 2", "", "4.50", "+0.50")
-    rows = gp.compare_boundaries(stated, STATED, FOUND[1:], gap=1.0).rows
+    rows = gp.article.compare_boundaries(stated, STATED, FOUND[1:], gap=1.0).rows
     assert rows[0][-2:] == ("none", "–")
-    assert gp.compare_boundaries(stated, STATED, [], gap=1.0).rows[0][-2:] == ("none", "–")
+    assert gp.article.compare_boundaries(stated, STATED, [], gap=1.0).rows[0][-2:] == ("none", "–")
 
 
 def test_attractors_are_counted_beside_the_published_motion():
     plane = gp.basins(OSC, np.linspace(-4, 4, 9), np.linspace(-3, 3, 7))
-    rows = gp.compare_attractors(published.ranges("damping_ratio"), {0.02: plane, 0.03: plane}, 0.1, digits=2).rows
+    rows = gp.article.compare_attractors(
+        published.ranges("damping_ratio"), {0.02: plane, 0.03: plane}, 0.1, digits=2
+    ).rows
     assert rows[0][:3] == ("0.02", "D5", "period 1") and rows[1][:3] == ("0.03", "–", "–")
     assert rows[0][3] == "period 1, double-sided; period 2, single-sided"
 

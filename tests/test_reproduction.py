@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from gearpair import published
-from gearpair.reproduction import REACH, label, published_labels, score
+from gearpair.article import published
+from gearpair.article.scoring import REACH, label, published_labels, score
 
 PARAMETERS = ("mesh_frequency", "damping_ratio")
 

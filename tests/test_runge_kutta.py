@@ -49,9 +49,9 @@ def test_converges_to_the_exact_flow_where_no_event_spoils_its_order():
 
 def test_only_the_last_points_are_kept():
     osc = gp.Oscillator()
-    everything = gp.runge_kutta_section(osc, 1.0, 0.0, 5)
+    everything = gp.methods.runge_kutta_section(osc, 1.0, 0.0, 5)
     assert everything.shape == (6, 2)
-    np.testing.assert_array_equal(gp.runge_kutta_section(osc, 1.0, 0.0, 5, n_kept=2), everything[-2:])
+    np.testing.assert_array_equal(gp.methods.runge_kutta_section(osc, 1.0, 0.0, 5, n_kept=2), everything[-2:])
     np.testing.assert_array_equal(everything[0], [1.0, 0.0])
 
 
@@ -61,25 +61,27 @@ def test_a_failure_has_a_status_not_a_hang():
     assert integrate(p, 1.2, 0.0, 1, 1e-30, 1e-30, 10**5, points)[0] == TOO_MANY_STEPS
     assert integrate(p, 1e308, 1e308, 1, 1e-3, 1e-6, 10**5, points)[0] == STEP_TOO_SMALL
     with pytest.raises(RuntimeError, match="RK45 gave up"):
-        gp.runge_kutta_section(gp.Oscillator(), 1e308, 1e308, 1)
+        gp.methods.runge_kutta_section(gp.Oscillator(), 1e308, 1e308, 1)
 
 
 def test_carried_and_restarted_sweeps_start_where_they_say():
     osc, values = gp.Oscillator(), [1.6, 1.65, 1.7]
     options = {"n_transient": 20, "n_samples": 5}
-    carried = gp.runge_kutta_sweep(osc, "mesh_frequency", values, **options)
-    restarted = gp.runge_kutta_sweep(osc, "mesh_frequency", values, seeding="restart", **options)
+    carried = gp.methods.runge_kutta_sweep(osc, "mesh_frequency", values, **options)
+    restarted = gp.methods.runge_kutta_sweep(osc, "mesh_frequency", values, seeding="restart", **options)
     for i, omega in enumerate(values):
-        alone = gp.runge_kutta_section(osc.replace(mesh_frequency=omega), 1.0, 0.0, 24, n_kept=5)
+        alone = gp.methods.runge_kutta_section(osc.replace(mesh_frequency=omega), 1.0, 0.0, 24, n_kept=5)
         np.testing.assert_array_equal(restarted.x[i], alone[:, 0])
     before = carried.isel(mesh_frequency=0, sample=-1)
-    alone = gp.runge_kutta_section(osc.replace(mesh_frequency=1.65), float(before.x), float(before.v), 24, n_kept=5)
+    alone = gp.methods.runge_kutta_section(
+        osc.replace(mesh_frequency=1.65), float(before.x), float(before.v), 24, n_kept=5
+    )
     np.testing.assert_array_equal(carried.x[1], alone[:, 0])
 
 
 def test_apparent_period():
     cycle = np.tile([[1.0, 0.0], [2.0, 0.1], [3.0, 0.2]], (10, 1))
-    assert gp.apparent_period(cycle) == 3
-    assert gp.apparent_period(cycle + 0.004 * np.sin(np.arange(30))[:, None]) == 3
-    assert gp.apparent_period(np.random.default_rng(1).normal(size=(30, 2))) == 0
-    assert gp.apparent_period(np.full((30, 2), np.nan)) == 0
+    assert gp.methods.apparent_period(cycle) == 3
+    assert gp.methods.apparent_period(cycle + 0.004 * np.sin(np.arange(30))[:, None]) == 3
+    assert gp.methods.apparent_period(np.random.default_rng(1).normal(size=(30, 2))) == 0
+    assert gp.methods.apparent_period(np.full((30, 2), np.nan)) == 0

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from gearpair.spurpair import SpurPair
-from gearpair.tooth_profile import ToothProfile
+from gearpair.teeth.spurpair import SpurPair
+from gearpair.teeth.tooth_profile import ToothProfile
 
 
 def textbook_contact_ratio(pair: SpurPair) -> float:

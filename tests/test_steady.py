@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair.batches import REMEDIES, Status, transient_periods
+from gearpair.motion.settling import REMEDIES, Status, transient_periods
 from tests.oscillators import level
 
 

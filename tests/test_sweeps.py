@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair import _cores, batches
+from gearpair import _cores
 
 BASELINE = gp.Oscillator()
 QUICK = {"n_transient": 300, "n_exponent": 200}
@@ -104,9 +104,9 @@ def test_a_stop_keeps_what_is_done(monkeypatch, seeding):
             raise KeyboardInterrupt
         original(first, last, *arguments)
 
-    original = batches.settle_rows
-    monkeypatch.setattr(batches, "settle_rows", interrupted)
-    monkeypatch.setattr(batches, "BLOCK", 1)
+    original = settling.settle_rows
+    monkeypatch.setattr(settling, "settle_rows", interrupted)
+    monkeypatch.setattr(settling, "BLOCK", 1)
     monkeypatch.setattr(_cores.config, "NUMBA_NUM_THREADS", 1)
     with pytest.warns(UserWarning, match="stopped after [2-4] of 6 motions"):
         diagram = gp.sweep(BASELINE, "mesh_frequency", np.linspace(1.5, 1.6, 6), seeding=seeding, **QUICK)

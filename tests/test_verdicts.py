@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from gearpair import hypotheses as hy
-from gearpair import published, verdicts
-from gearpair.branches import continue_orbit
-from gearpair.orbits import periodic_orbit
+from gearpair.article import published, verdicts
+from gearpair.article import trials as hy
+from gearpair.bifurcations.branches import continue_orbit
+from gearpair.bifurcations.orbits import periodic_orbit
 
 
 @pytest.mark.parametrize(

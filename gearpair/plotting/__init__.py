@@ -5,7 +5,8 @@ colour-blind readers. Nothing is set at import: ``plt.style.use(STYLE)``, or ``w
 the book's look.
 """
 
-from gearpair.plotting.branches import bifurcation_curves, branches
+from gearpair.plotting.article import coverage_by_phase, reached_motions, score_ranking
+from gearpair.plotting.bifurcations import bifurcation_curves, branches
 from gearpair.plotting.diagrams import (
     bifurcation_diagram,
     exponents,
@@ -15,8 +16,7 @@ from gearpair.plotting.diagrams import (
     range_lanes,
     range_strips,
 )
-from gearpair.plotting.maps import period_map
-from gearpair.plotting.method import (
+from gearpair.plotting.methods import (
     certificate,
     certified_steps,
     drawn_diagram,
@@ -25,8 +25,7 @@ from gearpair.plotting.method import (
     work_precision,
 )
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
-from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
-from gearpair.plotting.reproduction import coverage_by_phase, reached_motions, score_ranking
+from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states, period_map
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.teeth import (
     compliance_stack,

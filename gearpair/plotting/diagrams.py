@@ -9,6 +9,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
+from gearpair.article.published import Boundary, Range
+from gearpair.motion.names import motion_names, motion_order
+from gearpair.motion.ranges import MotionRange, motion_ranges, swept_parameter
 from gearpair.plotting.style import (
     BACKLASH,
     BOUNDARY,
@@ -19,8 +22,6 @@ from gearpair.plotting.style import (
     motion_colour,
     new_axes,
 )
-from gearpair.published import Boundary, Range
-from gearpair.ranges import MotionRange, motion_names, motion_order, motion_ranges, swept_parameter
 
 LETTER = 0.0115  # share of the axis that a letter of a bar's name takes
 

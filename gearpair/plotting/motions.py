@@ -9,13 +9,13 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gearpair.motion import Trajectory, trajectory
+from gearpair.motion.names import motion_name
+from gearpair.motion.spectra import Spectrum
+from gearpair.motion.spectra import spectrum as spectrum_of
+from gearpair.motion.steady import SteadyState
+from gearpair.motion.trajectories import Trajectory, trajectory
 from gearpair.plotting.diagrams import shade_backlash
 from gearpair.plotting.style import BOUNDARY, INK, LABELS, STYLE, motion_colour, new_axes
-from gearpair.ranges import motion_name
-from gearpair.spectra import Spectrum
-from gearpair.spectra import spectrum as spectrum_of
-from gearpair.steady import SteadyState
 
 SHOWN_PERIODS = 8  # mesh periods of a time history
 SPECTRUM_PERIODS = 240  # at least so many mesh periods under a spectrum

@@ -10,11 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap, to_rgb
 from matplotlib.patches import Patch
 
-from gearpair.impacts import ImpactState
+from gearpair.motion.impacts import ImpactState
 from gearpair.plotting.diagrams import shade_backlash
-from gearpair.plotting.style import motion_colour, new_axes
-from gearpair.ranges import IMPACT_NAMES, attractor_names, motion_name
-from gearpair.steady import SteadyState
+from gearpair.plotting.style import LABELS, add_motion_legend, legend_name, motion_colour, new_axes
+from gearpair.motion.initial_conditions import attractor_names
+from gearpair.motion.names import IMPACT_NAMES, motion_name, motion_names
+from gearpair.motion.steady import SteadyState
 
 # The harsher the darker.
 IMPACT_COLOURS: Mapping[str, str] = {
@@ -150,4 +151,42 @@ def finite_exponents(result: xr.Dataset, ax: Axes | None = None, *, largest: flo
     shade_backlash(ax, horizontal=False)
     ax.figure.colorbar(shown, ax=ax, label=r"largest exponent $\lambda_1$", pad=0.01)
     ax.set(xlabel="initial displacement $X_0$", ylabel="initial velocity $X_0'$")
+    return ax
+
+
+def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """The motion at each point of a grid of two parameters, in the colours of all figures.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        Of `gearpair.parameter_map` with two axes, evenly spaced: the first is drawn upwards, the second to the right.
+    ax : Axes, optional
+    legend : bool
+        Name the colours above the axes.
+
+    Returns
+    -------
+    Axes
+        With one image whose pixels are the grid's points.
+
+    Raises
+    ------
+    ValueError
+        For a map with another number of axes.
+    """
+    names = motion_names(result)
+    if names.ndim != 2:
+        raise ValueError(f"result must be a map over two parameters, got {names.ndim}: {', '.join(result.status.dims)}")
+    ax = new_axes(ax, 4.6)
+    vertical, horizontal = (str(dim) for dim in result.status.dims)
+    colours = {name: to_rgb(motion_colour(str(name))) for name in np.unique(names)}
+    pixels = np.array([[colours[name] for name in row] for row in names])
+    x, y = result[horizontal].values, result[vertical].values
+    half_x, half_y = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
+    extent = (x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y)
+    ax.imshow(pixels, origin="lower", extent=extent, aspect="auto", interpolation="nearest")
+    ax.set(xlabel=LABELS[horizontal], ylabel=LABELS[vertical])
+    if legend:
+        add_motion_legend(ax, {legend_name(str(name)) for name in np.unique(names)})
     return ax

@@ -11,12 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair.finite_elements import MEASURES, FiniteElementBody
-from gearpair.meshing import MeshStiffness
+from gearpair.article.published import StiffnessRow
 from gearpair.plotting.style import BOUNDARY, INK, LABELS, new_axes
-from gearpair.published import StiffnessRow
-from gearpair.spurpair import SpurGear
-from gearpair.tooth_profile import Root, ToothProfile
+from gearpair.teeth.finite_elements import MEASURES, FiniteElementBody
+from gearpair.teeth.meshing import MeshStiffness
+from gearpair.teeth.spurpair import SpurGear
+from gearpair.teeth.tooth_profile import Root, ToothProfile
 
 Array = NDArray[np.float64]
 

@@ -31,8 +31,8 @@ from scipy.sparse.linalg import splu
 from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri, MeshTri2, condense
 from skfem.helpers import ddot, sym_grad, trace
 
-from gearpair.spurpair import SpurGear, SpurPair
-from gearpair.tooth_profile import ToothProfile
+from gearpair.teeth.spurpair import SpurGear, SpurPair
+from gearpair.teeth.tooth_profile import ToothProfile
 
 RESULTS = Path(__file__).parents[2] / "gearpair" / "data" / "finite_elements.json"
 NU = 0.3

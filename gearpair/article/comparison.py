@@ -1,0 +1,207 @@
+"""The article's table of motions beside what was found."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gearpair.article import published
+from gearpair.article.published import Boundary, Range
+from gearpair.article.scoring import REACH, axis
+from gearpair.article.trials import Trial
+from gearpair.bifurcations.locating import Bifurcation
+from gearpair.motion.datasets import symbol
+from gearpair.motion.initial_conditions import attractor_names
+from gearpair.motion.ranges import MotionRange
+from gearpair.tables import Table
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def compare_ranges(published: Iterable[Range], found: Sequence[MotionRange], digits: int = 3) -> Table:
+    """The published ranges beside what was found inside each.
+
+    Parameters
+    ----------
+    published : iterable of Range
+        As `gearpair.published.ranges` gives them.
+    found : sequence of MotionRange
+        As `found_ranges` gives them.
+    digits : int
+        Decimals shown.
+
+    Returns
+    -------
+    Table
+        The last column is the share of the published range where the published motion was found; a range
+        published as complex or chaotic has none.
+    """
+    rows = []
+    for stated in published:
+        inside = [
+            MotionRange(max(run.lower, stated.lower), min(run.upper, stated.upper), run.motion)
+            for run in found
+            if run.lower < stated.upper and run.upper > stated.lower
+        ]
+        texts = [f"{run.motion} ({run.lower:.{digits}f}–{run.upper:.{digits}f})" for run in inside]
+        same = sum(run.width for run in inside if run.motion == f"period {stated.period}")
+        share = f"{same / (stated.upper - stated.lower):.0%}" if stated.period else "–"
+        interval = f"{stated.lower:.{digits}f}–{stated.upper:.{digits}f}"
+        name = f"period {stated.period}" if stated.period else stated.motion
+        rows.append([stated.item, interval, name, ", ".join(texts) or "none this wide", share])
+    return Table(["item", "range", "published", "periodic motions found", "agreement"], rows)
+
+
+def compare_attractors(
+    published: Iterable[Range], planes: Mapping[float, xr.Dataset], least_share: float, digits: int = 3
+) -> Table:
+    """The published motion at some values of the parameter beside every attractor found there.
+
+    Parameters
+    ----------
+    published : iterable of Range
+        As `gearpair.published.ranges` gives them.
+    planes : mapping of float to xarray.Dataset
+        Of `gearpair.basins`, by the value of the parameter.
+    least_share : float
+        Attractors that fewer of the starts reach are left out.
+    digits : int
+        Decimals shown.
+
+    Returns
+    -------
+    Table
+    """
+    ranges = list(published)
+    rows = []
+    for value, plane in planes.items():
+        stated = next((r for r in ranges if value in r or value == ranges[-1].upper == r.upper), None)
+        motion = "–" if stated is None else f"period {stated.period}" if stated.period else stated.motion
+        counts = Counter(attractor_names(plane, least_share))
+        texts = [name if count == 1 else f"{name} ({count} of them)" for name, count in counts.items()]
+        rows.append([f"{value:.{digits}f}", stated.item if stated else "–", motion, "; ".join(texts)])
+    return Table([symbol(ranges[0].parameter), "item", "published", "attractors found"], rows)
+
+
+def compare_boundaries(
+    published: Iterable[Boundary], stated: Sequence[Range], found: Sequence[MotionRange], *, gap: float, digits: int = 3
+) -> Table:
+    """The published boundaries beside the nearest change between the same two kinds of motion.
+
+    Parameters
+    ----------
+    published : iterable of Boundary
+        As `gearpair.published.boundaries` gives them.
+    stated : sequence of Range
+        The published ranges that they separate.
+    found : sequence of MotionRange
+        As `found_ranges` gives them.
+    gap : float
+        Two ranges follow on each other when no more than this lies between them; a periodic motion with nothing that
+        follows on it changes into something complex.
+    digits : int
+        Decimals shown.
+
+    Returns
+    -------
+    Table
+    """
+    changes = _changes(found, gap)
+    rows = []
+    for boundary, below, above in zip(published, stated[:-1], stated[1:], strict=True):
+        change = tuple(f"period {r.period}" if r.period else "complex" for r in (below, above))
+        places = [place for place, kind in changes if kind == change]
+        nearest = min(places, key=lambda place: abs(place - boundary.value), default=None)
+        shown = (
+            ("none", "–") if nearest is None else (f"{nearest:.{digits}f}", f"{nearest - boundary.value:+.{digits}f}")
+        )
+        rows.append([boundary.item, f"{boundary.value:.{digits}f}", " to ".join(change), boundary.event or "", *shown])
+    return Table(["item", "published", "change", "said to be", "nearest found", "difference"], rows)
+
+
+def _changes(found: Sequence[MotionRange], gap: float) -> list[tuple[float, tuple[str, str]]]:
+    """Where one kind of motion gives way to another, the parameter rising; the ends of all found are no changes."""
+    if not found:
+        return []
+    first, last = min(run.lower for run in found), max(run.upper for run in found)
+    changes = []
+    for run in found:
+        after = [other for other in found if abs(other.lower - run.upper) <= gap and other.upper > run.upper]
+        before = [other for other in found if abs(other.upper - run.lower) <= gap and other.lower < run.lower]
+        changes += [(run.upper, (run.motion, other.motion)) for other in after]
+        if not after and run.upper < last:
+            changes.append((run.upper, (run.motion, "complex")))
+        if not before and run.lower > first:
+            changes.append((run.lower, ("complex", run.motion)))
+    return changes
+
+
+def nearest(stated: float, bifurcations: Iterable[Bifurcation]) -> Bifurcation | None:
+    """The fold or flip nearest to a stated value; grazings change no motion by themselves."""
+    changes = [b for b in bifurcations if b.kind != "grazing"]
+    return min(changes, key=lambda b: abs(b.value - stated), default=None)
+
+
+def boundary_table(
+    printed: Sequence[Trial], others: Sequence[Trial], best: Sequence[Trial], bifurcations: Sequence[Bifurcation]
+) -> Table:
+    """Every published boundary: where the printed reading, all others, and the best one put it.
+
+    Parameters
+    ----------
+    printed, others, best : sequence of Trial
+        The nearest boundary between the same two motions in any diagram counts.
+    bifurcations : sequence of Bifurcation
+        Of the best reading; the nearest fold or flip within a tenth of the axis, with its distance from the published
+        value.
+    """
+    rows = []
+    for boundary in published.FREQUENCY_BOUNDARIES + published.DAMPING_BOUNDARIES:
+        digits = 3 if boundary.parameter == "mesh_frequency" else 5
+        drawn = [drawn_boundary(trials, boundary) for trials in (printed, others, best)]
+        texts = ["–" if value is None else f"{value:.{digits}f}" for value in drawn]
+        ends = axis(boundary.parameter, 2)
+        change = nearest(boundary.value, [b for b in bifurcations if b.parameter == boundary.parameter])
+        if change is not None and abs(change.value - boundary.value) > REACH * (ends[1] - ends[0]):
+            change = None
+        named = "–" if change is None else f"{change.kind} of period {change.period} at {change.value:.5f}"
+        away = "–" if change is None else f"{change.value - boundary.value:+.{digits + 1}f}"
+        rows.append([boundary.item, f"{boundary.value:.{digits}f}", *texts, named, away])
+    columns = ["item", "published", "printed", "others", "best", "bifurcation of the best", "distance"]
+    return Table(columns, rows)
+
+
+def nearness(parameter: str, bifurcations: Iterable[Bifurcation], n: int = 20_000) -> tuple[float, float]:
+    """How near the published boundaries lie to folds and flips, and how often boundaries at random lie as near.
+
+    Parameters
+    ----------
+    parameter : {"mesh_frequency", "damping_ratio"}
+    bifurcations : iterable of Bifurcation
+    n : int
+        Random tables.
+
+    Returns
+    -------
+    distance, chance : float
+        The mean distance of a published boundary from the nearest fold or flip, and the fraction of tables with
+        boundaries anywhere on the axis whose mean distance is no larger.
+    """
+    changes = np.array([b.value for b in bifurcations if b.parameter == parameter and b.kind != "grazing"])
+    stated = np.array([boundary.value for boundary in published.boundaries(parameter)])
+    ends = axis(parameter, 2)
+    random = np.random.default_rng(0).uniform(ends[0], ends[1], (n, len(stated)))
+    distance = float(np.abs(stated[:, None] - changes).min(axis=1).mean())
+    chance = float(np.mean(np.abs(random[:, :, None] - changes).min(axis=2).mean(axis=1) <= distance))
+    return distance, chance
+
+
+def drawn_boundary(trials: Iterable[Trial], boundary: published.Boundary) -> float | None:
+    """The nearest boundary between the same two motions in any of the diagrams, None where none has one."""
+    scores = [t.frequency if boundary.parameter == "mesh_frequency" else t.damping for t in trials]
+    found = [m.found for s in scores for m in s.matches if m.boundary == boundary and m.found is not None]
+    return min(found, key=lambda value: abs(value - boundary.value), default=None)

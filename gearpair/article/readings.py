@@ -1,0 +1,129 @@
+"""How the article's equation can be read: a `Hypothesis` is one reading of its physics, the printed one by default."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gearpair._checks import check_choice, check_number
+from gearpair.article import published
+from gearpair.oscillator import Oscillator
+from gearpair.stiffness import StiffnessWave
+
+SHAPES = {0.0: "sin", 90.0: "cos", 180.0: "-sin", 270.0: "-cos"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hypothesis:
+    """A reading of the article's equation; every default is what is printed.
+
+    Parameters
+    ----------
+    stiff_for : {"eps - 1", "2 - eps"}
+        How much of the mesh period the stiff interval lasts (item K2 says eps - 1).
+    first : {"stiff", "soft"}
+        Which interval begins at the start of the mesh period.
+    phase : float
+        Degrees added to the argument of the forcing's sine: 0 is sine, 90 cosine, 180 minus sine (the other sign of
+        the error), 270 minus cosine.
+    force : {"Omega^2", "constant"}
+        Whether the forcing's amplitude is F_ah Omega^2 (item M6) or F_ah.
+    mean : {"as printed", "one"}
+        Whether the wave is divided by its mean, as item M5 asks.
+    damping : {"2 zeta", "zeta"}
+        The coefficient of X'.
+
+    Examples
+    --------
+    >>> print(Hypothesis(stiff_for="2 - eps", phase=90.0))
+    stiff for 2 - eps, stiff first, cos, Omega^2, mean as printed, 2 zeta
+    """
+
+    stiff_for: Literal["eps - 1", "2 - eps"] = "eps - 1"
+    first: Literal["stiff", "soft"] = "stiff"
+    phase: float = 0.0
+    force: Literal["Omega^2", "constant"] = "Omega^2"
+    mean: Literal["as printed", "one"] = "as printed"
+    damping: Literal["2 zeta", "zeta"] = "2 zeta"
+
+    def __post_init__(self) -> None:
+        check_choice("stiff_for", self.stiff_for, ("eps - 1", "2 - eps"))
+        check_choice("first", self.first, ("stiff", "soft"))
+        check_number("phase", self.phase)
+        check_choice("force", self.force, ("Omega^2", "constant"))
+        check_choice("mean", self.mean, ("as printed", "one"))
+        check_choice("damping", self.damping, ("2 zeta", "zeta"))
+
+    def __str__(self) -> str:
+        shape = SHAPES.get(self.phase % 360.0, f"sin(. + {self.phase:g} deg)")
+        words = (
+            f"stiff for {self.stiff_for}",
+            f"{self.first} first",
+            shape,
+            self.force,
+            f"mean {self.mean}",
+            self.damping,
+        )
+        return ", ".join(words)
+
+    @property
+    def wave(self) -> StiffnessWave:
+        """The stiffness wave of this reading."""
+        base = published.BASELINE
+        stiff = base.contact_ratio - 1.0 if self.stiff_for == "eps - 1" else 2.0 - base.contact_ratio
+        high, low = 1.0 + base.a, 1.0 - base.b
+        mean = stiff * high + (1.0 - stiff) * low if self.mean == "one" else 1.0
+        if self.first == "stiff":
+            return StiffnessWave((0.0, stiff), (high / mean, low / mean))
+        return StiffnessWave((0.0, 1.0 - stiff), (low / mean, high / mean))
+
+    def oscillator(
+        self,
+        mesh_frequency: float = published.DAMPING_FREQUENCY,
+        damping_ratio: float = published.BASELINE.damping_ratio,
+    ) -> Oscillator:
+        """The article's baseline in this reading."""
+        base = published.BASELINE
+        return Oscillator(
+            mean_force=base.mean_force,
+            error_amplitude=base.error_amplitude * (1.0 if self.force == "Omega^2" else mesh_frequency**-2),
+            error_phase=base.error_phase + float(np.radians(self.phase)),
+            damping_ratio=damping_ratio * (1.0 if self.damping == "2 zeta" else 0.5),
+            mesh_frequency=mesh_frequency,
+            stiffness=self.wave,
+        )
+
+    def along(self, parameter: str, values: ArrayLike) -> list[Oscillator]:
+        """One oscillator per value of a parameter that the article varies."""
+        published.ranges(parameter)
+        return [self.oscillator(**{parameter: float(value)}) for value in np.asarray(values)]
+
+
+PRINTED = Hypothesis()
+SWAPPED = Hypothesis(stiff_for="2 - eps")
+
+
+def all_hypotheses() -> tuple[Hypothesis, ...]:
+    """Every combination of the readings, the phase in quarter turns.
+
+    Examples
+    --------
+    >>> len(all_hypotheses()), all_hypotheses()[0] == PRINTED
+    (128, True)
+    """
+    choices = product(
+        ("eps - 1", "2 - eps"),
+        ("stiff", "soft"),
+        SHAPES,
+        ("Omega^2", "constant"),
+        ("as printed", "one"),
+        ("2 zeta", "zeta"),
+    )
+    return tuple(
+        Hypothesis(stiff_for=s, first=i, phase=p, force=f, mean=m, damping=d)  # type: ignore[arg-type]
+        for s, i, p, f, m, d in choices
+    )

@@ -1,0 +1,222 @@
+"""How close a computed table of motions comes to the published one.
+
+Everything in `score` was fixed before the first hypothesis was computed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair._checks import check_count
+from gearpair.article import published
+
+
+def axis(parameter: str, n_values: int) -> NDArray[np.float64]:
+    """Evenly spaced values over the published axis of a parameter."""
+    ranges = published.ranges(parameter)
+    return np.linspace(ranges[0].lower, ranges[-1].upper, check_count("n_values", n_values, at_least=2))
+
+
+def random_tables(parameter: str, n: int, *, seed: int = 0, n_values: int = 101) -> list[Score]:
+    """Scores of tables with the published motions in their order and boundaries at random.
+
+    Parameters
+    ----------
+    parameter : {"mesh_frequency", "damping_ratio"}
+    n : int
+    seed : int
+    n_values : int
+
+    Returns
+    -------
+    list of Score
+        What a table scores by chance that already knows the motions and their order.
+
+    Examples
+    --------
+    >>> len(random_tables("damping_ratio", 3))
+    3
+    """
+    values = axis(parameter, n_values)
+    motions = np.array([r.period or 0 for r in published.ranges(parameter)])
+    draw = np.random.default_rng(seed).random((check_count("n", n), len(motions) - 1))
+    cuts = values[0] + (values[-1] - values[0]) * np.sort(draw, axis=1)
+    return [score(parameter, values, motions[np.searchsorted(row, values, side="right")]) for row in cuts]
+
+
+NARROW = 1 / 50  # of the axis: narrower runs are dropped before boundaries and sequence are read off
+REACH = 1 / 10  # of the axis: a boundary found this far from the published one earns nothing
+
+
+@dataclass(frozen=True)
+class Match:
+    """A published boundary and the nearest computed boundary between the same two kinds of motion.
+
+    Attributes
+    ----------
+    boundary : published.Boundary
+    found : float or None
+        None where the table has no such boundary.
+    """
+
+    boundary: published.Boundary
+    found: float | None
+
+    @property
+    def distance(self) -> float | None:
+        """How far the found boundary lies above the published one (dimensionless)."""
+        return None if self.found is None else self.found - self.boundary.value
+
+
+@dataclass(frozen=True)
+class Score:
+    """How a table of motions along one parameter compares with the published table; each part from 0 to 1.
+
+    Attributes
+    ----------
+    parameter : str
+    agreement : float
+        Fraction of the axis on which the motion is the published one.
+    closeness : float
+        Mean over the published boundaries of ``max(0, 1 - distance / (axis / 10))``, 0 where none was found.
+    sequence : float
+        ``2 L / (m + n)``: L is the longest common subsequence of the two sequences of motions, m and n their lengths.
+    labels : tuple of str
+        The sequence found.
+    matches : tuple of Match
+        One per published boundary.
+    """
+
+    parameter: str
+    agreement: float
+    closeness: float
+    sequence: float
+    labels: tuple[str, ...]
+    matches: tuple[Match, ...]
+
+    @property
+    def total(self) -> float:
+        """The mean of the three parts."""
+        return (self.agreement + self.closeness + self.sequence) / 3.0
+
+
+def label(motion: int, parameter: str) -> str:
+    """The published table's word for a motion.
+
+    Parameters
+    ----------
+    motion : int
+        Period in mesh periods, 0 where the motion is not periodic.
+    parameter : {"mesh_frequency", "damping_ratio"}
+
+    Returns
+    -------
+    str
+        On the frequency axis ``"1"``, ``"2"``, ``"4"``, and ``"complex"`` for all else: the article's complex zone
+        holds chaotic bands and windows of other periods. On the damping axis the period, and ``"chaotic"`` for none.
+
+    Examples
+    --------
+    >>> label(3, "mesh_frequency"), label(3, "damping_ratio"), label(0, "damping_ratio")
+    ('complex', '3', 'chaotic')
+    """
+    if parameter == "mesh_frequency":
+        return str(motion) if motion in (1, 2, 4) else "complex"
+    return str(motion) if motion else "chaotic"
+
+
+def published_labels(parameter: str) -> tuple[str, ...]:
+    """The published sequence of motions along one parameter.
+
+    Examples
+    --------
+    >>> published_labels("mesh_frequency")
+    ('1', '2', '4', '2', 'complex', '2', '1')
+    """
+    return tuple(str(r.period or r.motion) for r in published.ranges(parameter))
+
+
+def score(parameter: str, values: ArrayLike, motions: ArrayLike) -> Score:
+    """Compare a computed table of motions with the published one.
+
+    Parameters
+    ----------
+    parameter : {"mesh_frequency", "damping_ratio"}
+    values : array_like of float, shape (n,)
+        Parameter values, ascending, evenly spaced over the published axis.
+    motions : array_like of int, shape (n,)
+        The period at each value, 0 where the motion is not periodic.
+
+    Returns
+    -------
+    Score
+
+    Raises
+    ------
+    ValueError
+        For a parameter that the article does not vary, or values that do not ascend.
+
+    Notes
+    -----
+    The table is a staircase: each value stands for the interval up to the middle between it and its neighbours. Its
+    runs of equal labels, without those narrower than 1/50 of the axis, give the sequence and the boundaries. A
+    published boundary is matched by the nearest computed boundary with the same label on either side; several
+    published boundaries may share one.
+
+    Examples
+    --------
+    >>> values = np.linspace(0.0, 0.025, 101)
+    >>> perfect = score("damping_ratio", values, np.select([values < 0.00275, values < 0.0165], [0, 3], 1))
+    >>> perfect.agreement, perfect.sequence, round(perfect.total, 2)
+    (1.0, 1.0, 0.98)
+    """
+    ranges = published.ranges(parameter)
+    grid, found = np.asarray(values, dtype=float), np.asarray(motions)
+    if grid.ndim != 1 or grid.shape != found.shape or grid.size < 2 or np.any(np.diff(grid) <= 0.0):
+        raise ValueError(f"values of {parameter} must ascend, one per motion, at least 2; got shape {grid.shape}")
+    labels = [label(int(m), parameter) for m in found]
+    expected = published_labels(parameter)
+    ends = np.array([r.upper for r in ranges[:-1]])
+    agreement = float(
+        np.mean([labels[i] == expected[k] for i, k in enumerate(np.searchsorted(ends, grid, side="right"))])
+    )
+    width = ranges[-1].upper - ranges[0].lower
+    runs = _runs(grid, labels, NARROW * width)
+    matches = []
+    for k, boundary in enumerate(published.boundaries(parameter)):
+        steps = [
+            right[1] for left, right in zip(runs, runs[1:], strict=False) if (left[0], right[0]) == expected[k : k + 2]
+        ]
+        matches.append(Match(boundary, min(steps, key=lambda step: abs(step - boundary.value), default=None)))
+    closeness = [0.0 if m.distance is None else max(0.0, 1.0 - abs(m.distance) / (REACH * width)) for m in matches]
+    sequence = tuple(run[0] for run in runs)
+    common = 2.0 * _common(sequence, expected) / (len(sequence) + len(expected))
+    return Score(parameter, agreement, float(np.mean(closeness)), common, sequence, tuple(matches))
+
+
+def _runs(grid: NDArray[np.float64], labels: Sequence[str], narrow: float) -> list[tuple[str, float]]:
+    """Label and lower end of each run that is wide enough, neighbours of one label merged."""
+    middles = np.concatenate([[grid[0]], 0.5 * (grid[1:] + grid[:-1]), [grid[-1]]])
+    wide: list[tuple[str, float]] = []
+    i = 0
+    for name, group in groupby(labels):
+        n = len(list(group))
+        if middles[i + n] - middles[i] >= narrow and not (wide and wide[-1][0] == name):
+            wide.append((name, float(middles[i])))
+        i += n
+    return wide
+
+
+def _common(a: Sequence[str], b: Sequence[str]) -> int:
+    """Length of the longest common subsequence."""
+    lengths = [0] * (len(b) + 1)
+    for x in a:
+        before = lengths.copy()
+        for j, y in enumerate(b):
+            lengths[j + 1] = before[j] + 1 if x == y else max(lengths[j], before[j + 1])
+    return lengths[-1]

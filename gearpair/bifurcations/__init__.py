@@ -1,0 +1,26 @@
+"""Periodic orbits, stable or not, their branches, and the folds, flips and grazings on them."""
+
+from gearpair.bifurcations.branches import Branch, continue_orbit
+from gearpair.bifurcations.curves import BifurcationCurve, continue_bifurcation
+from gearpair.bifurcations.doubling import doubled_orbit, doubling_cascade
+from gearpair.bifurcations.locating import Bifurcation
+from gearpair.bifurcations.orbits import NewtonStatus, PeriodicOrbit, find_orbits, periodic_orbit
+from gearpair.bifurcations.search import find_branches
+from gearpair.bifurcations.structure import coexistence, stable_ranges
+
+__all__ = [
+    "Bifurcation",
+    "BifurcationCurve",
+    "Branch",
+    "NewtonStatus",
+    "PeriodicOrbit",
+    "coexistence",
+    "continue_bifurcation",
+    "continue_orbit",
+    "doubled_orbit",
+    "doubling_cascade",
+    "find_branches",
+    "find_orbits",
+    "periodic_orbit",
+    "stable_ranges",
+]

@@ -1,0 +1,161 @@
+"""Where along a branch the folds, flips and grazings are: each located by Brent's method between two steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from gearpair.bifurcations._arclength import Step, Vector, between
+from gearpair.bifurcations._orbit_problem import Cycle, OrbitProblem
+from gearpair.motion.impacts import ImpactState, impact_state
+from gearpair.oscillator import Oscillator
+
+Kind = Literal["fold", "flip", "grazing"]
+MERGED = 0.1  # where two points pass each other by less than this share of how far they moved, they have met
+TOUCHING = 1e-9  # two points, or a turning point and a boundary, that lie closer than this touch
+
+
+@dataclass(frozen=True)
+class Bifurcation:
+    """A bifurcation of a branch.
+
+    Attributes
+    ----------
+    kind : {"fold", "flip", "grazing"}
+        Multiplier +1, multiplier -1, or an extremum of the orbit touching X = +-1.
+    parameter : str
+    value : float
+        Of the parameter, to 1e-8 or better.
+    period : int
+        Of the orbit, in mesh periods.
+    x, v : float
+        The section point of the orbit with the smallest X.
+    oscillator : Oscillator
+        At that value.
+    contacts : tuple of two tuples of int
+        Contacts per cycle (drive, coast) before and after it along the branch; equal but for a grazing.
+    impact_state : ImpactState
+        Of the orbit there; at a grazing, of the side with fewer contacts.
+    """
+
+    kind: Kind
+    parameter: str
+    value: float
+    period: int
+    x: float
+    v: float
+    oscillator: Oscillator
+    contacts: tuple[tuple[int, int], tuple[int, int]]
+    impact_state: ImpactState
+
+
+def _merging(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> Step[Cycle] | None:
+    """Where the points half a period apart meet between two steps, if they do: the flip of the shorter orbit.
+
+    There the doubled branch and the shorter orbit's own cross, so the flip's own equations are solved.
+    """
+    before, after = a.data.half_gap, b.data.half_gap
+    collapsed = np.linalg.norm(after) < TOUCHING  # the step has landed on the shorter orbit's own branch
+    if before @ after >= 0.0 and not collapsed:
+        return None
+    share = before @ (before - after) / np.sum((before - after) ** 2)
+    if not collapsed and np.linalg.norm(before + share * (after - before)) > MERGED * np.linalg.norm(before - after):
+        return None
+    from scipy.optimize import root  # here, so that importing gearpair stays quick
+
+    half = OrbitProblem(
+        problem.osc, problem.period // 2, dict(zip(problem.names, problem.scales.tolist(), strict=True))
+    )
+
+    def flip(u: Vector) -> Vector:
+        found = half.equations(u)
+        return np.append(found[0], half.cycle(u).flip_test) if found is not None else np.full(3, np.inf)
+
+    middle = a.u.copy() if collapsed else (1.0 - share) * a.u + share * b.u
+    middle[:2] += 0.5 * before if collapsed else 0.5 * ((1.0 - share) * before + share * after)
+    solution = root(flip, middle, tol=1e-13)
+    lost = np.max(np.abs(solution.fun)) > 1e-9 or np.linalg.norm(solution.x - middle) > np.linalg.norm(b.u - a.u)
+    if lost:
+        return a if collapsed else None
+    return Step(solution.x, a.tangent, int(solution.nfev), problem.cycle(solution.x))
+
+
+def _locate(
+    problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle], test: Callable[[Cycle], float]
+) -> Step[Cycle] | None:
+    """The step between `a` and `b` where `test` is zero (it changes sign), or None where the branch is lost."""
+
+    from scipy.optimize import brentq  # here, so that importing gearpair stays quick
+
+    def signed(share: float) -> float:
+        found = between(problem.equations, a.u, b.u, share)
+        if found is None:
+            raise ArithmeticError
+        return test(problem.cycle(found[0]))
+
+    try:
+        share = brentq(signed, 0.0, 1.0, xtol=1e-14, rtol=1e-14)
+    except (ArithmeticError, ValueError):
+        return None
+    found = between(problem.equations, a.u, b.u, share)
+    return Step(*found, problem.cycle(found[0])) if found is not None else None
+
+
+def _bifurcations(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> list[Bifurcation]:
+    """Every bifurcation between two steps, in order along the chord."""
+    found: list[tuple[Kind, Step[Cycle], tuple[int, int], tuple[int, int]]] = []
+    tests: list[tuple[Kind, Callable[[Cycle], float]]] = [
+        ("fold", lambda cycle: cycle.fold_test),
+        ("flip", lambda cycle: cycle.flip_test),
+    ]
+    for kind, test in tests:
+        if test(a.data) * test(b.data) < 0.0:
+            at = _locate(problem, a, b, test)
+            if at is not None:
+                found.append((kind, at, at.data.contacts, at.data.contacts))
+    found += [("grazing", at, before, after) for at, before, after in _grazings(problem, a, b)]
+    found.sort(key=lambda item: float(np.linalg.norm(item[1].u - a.u)))
+    return [_bifurcation(problem, *item) for item in found]
+
+
+def _grazings(
+    problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]
+) -> list[tuple[Step[Cycle], tuple[int, int], tuple[int, int]]]:
+    """Between two steps with different contacts: bisect until one turning point crosses one boundary, then Brent."""
+    before, after = a.data.contacts, b.data.contacts
+    if before == after:
+        return []
+    if abs(before[0] - after[0]) + abs(before[1] - after[1]) == 1 and a.data.gap * b.data.gap < 0.0:
+        at = _locate(problem, a, b, lambda cycle: cycle.gap)
+        if at is not None and abs(at.data.gap) < TOUCHING:
+            return [(at, before, after)]
+    if np.linalg.norm(b.u - a.u) < 1e-10:  # two grazings at once
+        return [(a, before, after)]
+    middle = between(problem.equations, a.u, b.u, 0.5)
+    if middle is None:
+        return []
+    step = Step(*middle, problem.cycle(middle[0]))
+    return _grazings(problem, a, step) + _grazings(problem, step, b)
+
+
+def _bifurcation(
+    problem: OrbitProblem, kind: Kind, at: Step[Cycle], before: tuple[int, int], after: tuple[int, int]
+) -> Bifurcation:
+    point = at.data.points[np.argmin(at.data.points[:, 0])]
+    x_min, x_max = at.data.x_min, at.data.x_max
+    if kind == "grazing":  # touching is not yet impacting
+        x_min, x_max = (round(x, 8) if abs(abs(x) - 1.0) < 1e-8 else x for x in (x_min, x_max))
+    return Bifurcation(
+        kind=kind,
+        parameter=problem.names[0],
+        value=float(problem.values(at.u)[0]),
+        period=problem.period,
+        x=float(point[0]),
+        v=float(point[1]),
+        oscillator=problem.oscillator(at.u),
+        contacts=(before, after),
+        impact_state=impact_state(x_min, x_max),
+    )

@@ -1,0 +1,102 @@
+"""A search for the branches of periodic orbits in a range of one parameter."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gearpair._checks import check_count
+from gearpair.bifurcations.branches import LARGEST_STEP, Branch, continue_orbit, largest_x
+from gearpair.bifurcations.doubling import doubled_orbit
+from gearpair.bifurcations.locating import Bifurcation
+from gearpair.bifurcations.orbits import SAME_ORBIT, PeriodicOrbit, find_orbits, periodic_orbit
+from gearpair.oscillator import Oscillator
+
+
+def find_branches(
+    osc: Oscillator,
+    parameter: str,
+    lower: float,
+    upper: float,
+    *,
+    max_period: int = 4,
+    n_values: int = 11,
+    n_starts: int = 100,
+    largest_step: float = LARGEST_STEP,
+) -> list[Branch]:
+    """The branches of periodic orbits that a search finds in a range of one parameter.
+
+    Orbits are looked for from many starts at evenly spaced values; each that lies on no branch yet is
+    continued, and so is the doubled branch of each flip, up to `max_period`.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    parameter : str
+        One of ``osc.parameters``.
+    lower, upper : float
+        The range of the parameter.
+    max_period : int
+        The longest period followed, in mesh periods.
+    n_values : int
+        Values at which orbits are looked for.
+    n_starts : int
+        Starts per value and period, as in `find_orbits`.
+    largest_step : float
+        As in `continue_orbit`.
+
+    Returns
+    -------
+    list of Branch
+        In the order found. A finite search can miss some.
+
+    Raises
+    ------
+    ValueError
+        For an argument out of range.
+    """
+    branches: list[Branch] = []
+    for value in np.linspace(lower, upper, check_count("n_values", n_values)).tolist():
+        waiting: list[PeriodicOrbit | Bifurcation] = [
+            *find_orbits(osc.replace(**{parameter: value}), max_period, n_starts=n_starts)
+        ]
+        while waiting:
+            orbit = _start(branches, waiting.pop(0), lower, upper)
+            if orbit is not None:
+                branch = continue_orbit(orbit, parameter, lower, upper, largest_step=largest_step)
+                branches.append(branch)
+                waiting += [b for b in branch.bifurcations if b.kind == "flip" and 2 * b.period <= max_period]
+    return branches
+
+
+def _start(
+    branches: list[Branch], found: PeriodicOrbit | Bifurcation, lower: float, upper: float
+) -> PeriodicOrbit | None:
+    """The orbit to continue from an orbit or a flip, or None where that leads to nothing new."""
+    if isinstance(found, PeriodicOrbit):
+        large = max(-found.x_min, found.x_max) > largest_x(found.oscillator)
+        return None if large or any(_on_branch(branch, found) for branch in branches) else found
+    for branch in branches:
+        if branch.period == 2 * found.period and np.any(np.abs(branch.values[[0, -1]] - found.value) < 1e-6):
+            return None
+    try:
+        orbit = doubled_orbit(found)
+    except RuntimeError:
+        return None
+    return orbit if lower <= orbit.oscillator.parameter(found.parameter) <= upper else None
+
+
+def _on_branch(branch: Branch, orbit: PeriodicOrbit) -> bool:
+    """Whether Newton's method, started from the branch interpolated to the orbit's value, leads to the orbit."""
+    if branch.period != orbit.period:
+        return False
+    value = orbit.oscillator.parameter(branch.parameter)
+    left, right = branch.values[:-1], branch.values[1:]
+    for i in np.flatnonzero((np.minimum(left, right) <= value) & (value <= np.maximum(left, right))):
+        share = (value - left[i]) / (right[i] - left[i]) if right[i] != left[i] else 0.0
+        x, v = (1.0 - share) * branch.points[i, 0] + share * branch.points[i + 1, 0]
+        if np.min(np.max(np.abs(orbit.points - (x, v)), axis=1)) > 0.1:
+            continue
+        found = periodic_orbit(orbit.oscillator, x, v, orbit.period)
+        if found.converged and np.min(np.max(np.abs(orbit.points - found.points[0]), axis=1)) < SAME_ORBIT:
+            return True
+    return False

@@ -1,0 +1,120 @@
+"""The bifurcation structure of a set of branches, as ranges of coexistence and of stability."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from gearpair.bifurcations.branches import Branch
+from gearpair.motion.ranges import MotionRange
+
+SNAP = 2e-4  # relative distance within which the end of a stable range is the bifurcation found there
+
+
+def coexistence(
+    branches: list[Branch], lower: float, upper: float, *, shortest: float = 0.0
+) -> list[tuple[float, float, tuple[str, ...]]]:
+    """Which stable orbits of a set of branches exist together, range by range.
+
+    Parameters
+    ----------
+    branches : list of Branch
+        Along one parameter.
+    lower, upper : float
+        The range of the parameter.
+    shortest : float
+        Ranges narrower than this are left out.
+
+    Returns
+    -------
+    list of (float, float, tuple of str)
+        Start, end, and the stable orbits there, such as ``("period 1 double", "period 2 single_drive")``.
+        Orbits of one period and impact state on one branch count once each.
+    """
+    pieces = [piece for branch in branches for piece in _stable_pieces(branch) if piece[1] - piece[0] >= shortest]
+    # A branch that ends close to a bifurcation ends at it.
+    located = np.array([b.value for branch in branches for b in branch.bifurcations] or [np.inf])
+    pieces = [(_nearest(located, low), _nearest(located, high), name) for low, high, name in pieces]
+    edges = sorted({lower, upper, *(v for low, high, _ in pieces for v in (low, high) if lower < v < upper)})
+    ranges: list[tuple[float, float, tuple[str, ...]]] = []
+    for left, right in zip(edges, edges[1:], strict=False):
+        middle = 0.5 * (left + right)
+        names = tuple(sorted(name for low, high, name in pieces if low <= middle <= high))
+        if ranges and ranges[-1][2] == names:
+            ranges[-1] = (ranges[-1][0], right, names)
+        else:
+            ranges.append((left, right, names))
+    return [each for each in ranges if each[1] - each[0] >= shortest]
+
+
+def stable_ranges(branches: Iterable[Branch], *, shortest: float = 0.0) -> tuple[MotionRange, ...]:
+    """Where each kind of motion is stable on some branch, between the bifurcations that bound it.
+
+    Parameters
+    ----------
+    branches : iterable of Branch
+        Along one parameter.
+    shortest : float
+        Ranges narrower than this are left out.
+
+    Returns
+    -------
+    tuple of MotionRange
+        By rising lower end; what overlaps or touches is one range, whatever the impact states.
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, continue_orbit, periodic_orbit
+    >>> branch = continue_orbit(periodic_orbit(Oscillator(), 0.34629, -0.25625, 2), "mesh_frequency", 0.7, 0.8)
+    >>> [(run.motion, round(run.lower, 4), round(run.upper, 4)) for run in stable_ranges([branch])]
+    [('period 2', 0.7, 0.766)]
+    """
+    joined: list[MotionRange] = []
+    for low, high, name in sorted(piece for branch in branches for piece in _stable_pieces(branch)):
+        motion = " ".join(name.split()[:2])
+        same = [i for i, run in enumerate(joined) if run.motion == motion and low <= run.upper]
+        if same:
+            run = joined[same[-1]]
+            joined[same[-1]] = MotionRange(run.lower, max(run.upper, high), motion)
+        else:
+            joined.append(MotionRange(low, high, motion))
+    return tuple(run for run in joined if run.width >= shortest)
+
+
+def _nearest(located: np.ndarray, value: float) -> float:
+    """The bifurcation at `value`, or `value` itself where none is within `SNAP` of it."""
+    near = float(located[np.argmin(np.abs(located - value))])
+    return near if abs(near - value) <= SNAP * max(1.0, abs(value)) else value
+
+
+def _stable_pieces(branch: Branch) -> list[tuple[float, float, str]]:
+    """Parameter ranges of the stable orbits of a branch, cut where the impact state changes or the branch turns."""
+    states = branch.impact_states()
+    pieces: list[tuple[float, float, str]] = []
+    start = None
+    for i in range(len(branch.values) + 1):
+        inside = i < len(branch.values) and branch.stable[i]
+        if start is not None and (not inside or states[i] != states[start] or _turns(branch, start, i)):
+            ends = [_edge(branch, start - 1, start), _edge(branch, i - 1, i)]
+            pieces.append((min(ends), max(ends), f"period {branch.period} {states[start]}"))
+            start = None
+        if inside and start is None:
+            start = i
+    return pieces
+
+
+def _turns(branch: Branch, start: int, i: int) -> bool:
+    """Whether the branch turns back in the parameter at orbit ``i - 1``, after `start`."""
+    steps = np.diff(branch.values[max(i - 2, start) : i + 1])
+    return len(steps) == 2 and steps[0] * steps[1] < 0.0
+
+
+def _edge(branch: Branch, i: int, j: int) -> float:
+    """The bifurcation's value between orbits `i` and `j` of a branch, or the branch's own end."""
+    if i < 0 or j >= len(branch.values):
+        return float(branch.values[max(i, 0) if j >= len(branch.values) else j])
+    low, high = sorted(branch.values[[i, j]].tolist())
+    margin = high - low
+    near = [b.value for b in branch.bifurcations if low - margin <= b.value <= high + margin]
+    return min(near, key=lambda value: abs(value - 0.5 * (low + high))) if near else 0.5 * (low + high)

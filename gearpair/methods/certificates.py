@@ -1,0 +1,270 @@
+"""The exact flow taken apart: every segment of a motion, and the certificate by which its impacts were found."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair._checks import check_count
+from gearpair._flow.cells import COSINE, SINE, START, WIDTH
+from gearpair._flow.closed_form import TERMS, evaluate_jerk
+from gearpair._flow.event_search import INSIDE, MAX_STEPS, MONOTONE, ROUNDING, UNDECIDED, certified_step
+from gearpair._flow.march import EVENT_UNDECIDED, first_region, next_segment, region_after
+from gearpair.motion.trajectories import check_starts, raise_unless_ok
+from gearpair.oscillator import Oscillator
+
+
+@dataclass(frozen=True)
+class CertifiedStep:
+    """One step that cannot pass the boundary: on it the distance is at least ``d + u h + m h^2 / 2``.
+
+    Attributes
+    ----------
+    t : float
+        Where it starts, in widths of the cell.
+    boundary : float
+        +1 or -1, the boundary that limits it.
+    d, u, m : float
+        Distance to the boundary, its rate, and a lower bound of its second derivative over the step (per t).
+    length : float
+        How far it goes.
+    """
+
+    t: float
+    boundary: float
+    d: float
+    u: float
+    m: float
+    length: float
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A piece of the motion inside one cell and one region, as a power series in t (unit: the cell's width).
+
+    Attributes
+    ----------
+    start : float
+        In mesh periods since the motion's start.
+    width : float
+        Of the cell, in mesh periods.
+    region : int
+        -1 coast-side contact, 0 free flight, +1 drive-side contact.
+    series : ndarray of float
+        X is the sum of ``series[n] t**n``.
+    span : float
+        What is left of the cell, in widths: 1 but for a segment that begins with an impact.
+    fourth : float
+        A bound of the fourth derivative by t.
+    crossing : float or None
+        The t at which the engine found that the motion leaves the region.
+    """
+
+    start: float
+    width: float
+    region: int
+    series: NDArray[np.float64]
+    span: float
+    fourth: float
+    crossing: float | None
+
+    def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
+        """X at `t` by the series."""
+        return np.polynomial.polynomial.polyval(np.asarray(t, dtype=float), self.series)
+
+    @cached_property
+    def control_points(self) -> NDArray[np.float64]:
+        """The Bézier points (t, X) of the cubic Hermite interpolant, shape (4, 2)."""
+        slope = np.polynomial.polynomial.polyder(self.series)
+        b0, b3 = self(0.0), self(self.span)
+        third = self.span / 3.0
+        b1, b2 = b0 + third * slope[0], b3 - third * np.polynomial.polynomial.polyval(self.span, slope)
+        return np.column_stack([np.arange(4) * third, [b0, b1, b2, b3]])
+
+    def cubic(self, t: ArrayLike) -> NDArray[np.float64]:
+        """The cubic Hermite interpolant at `t`."""
+        b0, b1, b2, b3 = self.control_points[:, 1]
+        s = np.asarray(t, dtype=float) / self.span
+        r = 1.0 - s
+        return b0 * r**3 + 3.0 * b1 * r**2 * s + 3.0 * b2 * r * s**2 + b3 * s**3
+
+    @property
+    def spread(self) -> float:
+        """How far the motion can be from the cubic: ``span^4 max |X''''| / 384``."""
+        return self.fourth * self.span**4 / 384.0
+
+    @property
+    def boundaries(self) -> tuple[float, float]:
+        """Floor and ceiling of the region, infinite where there is none."""
+        return {-1: (-np.inf, -1.0), 0: (-1.0, 1.0), 1: (1.0, np.inf)}[self.region]
+
+    @property
+    def clearance(self) -> float:
+        """Distance from the hull, widened by `spread`, to the nearest boundary; negative where it sticks out."""
+        floor, ceiling = self.boundaries
+        heights = self.control_points[:, 1]
+        return float(min(heights.min() - self.spread - floor, ceiling - heights.max() - self.spread))
+
+    @cached_property
+    def certificate(self) -> str:
+        """The first that holds: ``"hull"``, ``"monotone"`` or ``"steps"``."""
+        if self.clearance >= 0.0:
+            return "hull"
+        differences = np.diff(self.control_points[:, 1])
+        margin = MONOTONE * self.spread
+        if np.all(differences > margin) or np.all(differences < -margin):
+            return "monotone"
+        return "steps"
+
+    def certified_steps(self) -> tuple[list[CertifiedStep], float | None]:
+        """The search by certified steps alone, whatever certificate holds.
+
+        Returns
+        -------
+        steps : list of CertifiedStep
+        crossing : float or None
+            The t at which the steps arrive at the boundary; None where they reach the end.
+        """
+        tiny = ROUNDING * max(1.0, abs(self.series[0]))
+        t = 0.0
+        steps: list[CertifiedStep] = []
+        for _ in range(MAX_STEPS):
+            p, u, a, j = evaluate_jerk(self.series, t)
+            rest = self.span - t
+            found = []
+            for boundary, sign in zip(self.boundaries, (1.0, -1.0), strict=True):
+                if np.isfinite(boundary):
+                    d = sign * (p - boundary)
+                    if d <= tiny and sign * u < 0.0:
+                        return steps, t
+                    length, m = self._longest(max(d, 0.0), sign * u, sign * a, sign * j, rest)
+                    if d <= tiny:  # at rest on the boundary or leaving it
+                        length = max(length, float(np.sqrt(tiny / (abs(a) + abs(j) + self.fourth + ROUNDING))))
+                    found.append(CertifiedStep(t, boundary, d, sign * u, m, length))
+            shortest = min(found, key=lambda step: step.length)
+            steps.append(shortest)
+            t += shortest.length
+            if t >= self.span:
+                return steps, None
+        raise_unless_ok(EVENT_UNDECIDED, 0)
+        return steps, None
+
+    def _longest(self, d: float, u: float, a: float, j: float, end: float) -> tuple[float, float]:
+        """`event_search.longest_step`, with the bound m that the step was taken with."""
+        step, bound = 0.0, -np.inf
+        while end > step:
+            m = a + min(0.0, j * end) - 0.5 * self.fourth * end * end
+            length = min(end, certified_step(d, u, m))
+            if length >= step:
+                step, bound = length, m
+            end *= 0.5
+        return step, bound
+
+
+def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Segment]:
+    """Every segment of the motion from (x, v) at the start of a mesh period.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    x, v : float
+        X and X' at the start (dimensionless).
+    n_periods : int
+        Mesh periods, at least 1.
+
+    Returns
+    -------
+    list of Segment
+        In the order of time; a cell without an impact is one segment, each impact adds one.
+
+    Raises
+    ------
+    ValueError
+        For an argument out of range.
+    RuntimeError
+        Where an impact cannot be told from a near miss.
+
+    Examples
+    --------
+    >>> from gearpair import trajectory
+    >>> pieces = segments(Oscillator(), 1.0, 0.0)
+    >>> impacts = trajectory(Oscillator(), 1.0, 0.0, 1).impacts
+    >>> sum(piece.crossing is not None for piece in pieces) == len(impacts)
+    True
+    """
+    xs, vs = check_starts(x, v)
+    if xs.ndim:
+        raise ValueError(f"x and v must be single numbers, got shape {xs.shape}")
+    n_periods = check_count("n_periods", n_periods)
+    cells = osc._cells
+    series = np.empty(TERMS)
+    x, v = float(xs), float(vs)
+    region = first_region(cells, x, v)
+    found: list[Segment] = []
+    for period in range(n_periods):
+        for j in range(len(cells.level)):
+            clock = cells.clock[j]
+            width, t, outcome = clock[WIDTH] / cells.period, 0.0, -1
+            while outcome != INSIDE:
+                turn = t * width * cells.turn
+                sine = clock[SINE] * np.cos(turn) + clock[COSINE] * np.sin(turn)
+                cosine = clock[COSINE] * np.cos(turn) - clock[SINE] * np.sin(turn)
+                unit = np.abs([x - region, v, cells.force, sine, cosine])
+                fourth = float(cells.fourths[cells.level[j], abs(region)] @ unit)
+                start, here = period + clock[START] + t * width, region
+                outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
+                if outcome == UNDECIDED:
+                    raise_unless_ok(EVENT_UNDECIDED, period)
+                crossing = None if outcome == INSIDE else float(duration)
+                found.append(Segment(float(start), float(width), here, series.copy(), 1.0 - t, fourth, crossing))
+                if outcome != INSIDE:
+                    t += duration
+                    region = region_after(region, x)
+    return found
+
+
+def telling_segments(pieces: Iterable[Segment]) -> dict[str, Segment | None]:
+    """The segments that show the three certificates best.
+
+    Parameters
+    ----------
+    pieces : iterable of Segment
+
+    Returns
+    -------
+    dict of str to Segment or None
+        ``"hull"``, a whole cell with a turn: the nearest to a boundary. ``"monotone"``, a whole cell: the crossing
+        nearest to its middle. ``"near miss"``: the closest approach without a crossing that needs steps.
+        ``"crossing by steps"``: the one that takes the most of them. None where there is no such segment.
+    """
+    pieces = list(pieces)
+    whole = [piece for piece in pieces if piece.span == 1.0]
+    hull = [piece for piece in whole if piece.certificate == "hull" and _turns(piece)]
+    monotone = [piece for piece in whole if piece.certificate == "monotone" and piece.crossing is not None]
+    stepped = [piece for piece in pieces if piece.certificate == "steps"]
+    misses = [piece for piece in stepped if piece.crossing is None and _closest(piece) < np.inf]
+    crossed = [piece for piece in stepped if piece.crossing is not None]
+    return {
+        "hull": min(hull, key=lambda piece: piece.clearance, default=None),
+        "monotone": min(monotone, key=lambda piece: abs((piece.crossing or 0.0) - 0.5), default=None),
+        "near miss": min(misses, key=_closest, default=None),
+        "crossing by steps": max(crossed, key=lambda piece: len(piece.certified_steps()[0]), default=None),
+    }
+
+
+def _turns(piece: Segment) -> bool:
+    """Whether the cubic rises and falls."""
+    slopes = np.diff(piece.control_points[:, 1])
+    return bool(slopes.min() < 0.0 < slopes.max())
+
+
+def _closest(piece: Segment) -> float:
+    """The smallest distance to a boundary, on a fine grid; inf where it is at an end."""
+    floor, ceiling = piece.boundaries
+    x = piece(np.linspace(0.0, piece.span, 65))
+    distance = np.minimum(x - floor, ceiling - x)
+    return float(distance.min()) if 0 < distance.argmin() < 64 else np.inf

@@ -1,0 +1,266 @@
+"""What accuracy costs, and what is drawn without it: the exact flow beside the integrators."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair._checks import check_count
+from gearpair.methods.runge_kutta import apparent_period, runge_kutta_section
+from gearpair.methods.solvers import integrated_trajectory
+from gearpair.motion.datasets import attributes, oscillators_along
+from gearpair.motion.trajectories import Impacts, stroboscopic_map, trajectory
+from gearpair.oscillator import Oscillator
+from gearpair.stiffness import StiffnessWave
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+EXACT, COMPILED = "exact flow", "RK45, compiled"
+INTEGRATORS = ("RK45", "DOP853", "LSODA")
+ATOL_SHARE = 1e-3  # atol = rtol / 1000, as scipy's defaults are
+TIMED_PERIODS = 1000  # of one compiled run
+CUT = 0.38  # where `recut` divides each level
+
+
+@dataclass(frozen=True)
+class Precision:
+    """What one method did at one tolerance.
+
+    Attributes
+    ----------
+    method : str
+    rtol : float
+        nan for the exact flow, which has none.
+    error : float
+        The largest error of X or X' after one mesh period, over all starts.
+    seconds : float
+        Measured time per mesh period.
+    """
+
+    method: str
+    rtol: float
+    error: float
+    seconds: float
+
+
+def recut(osc: Oscillator) -> Oscillator:
+    """The same oscillator with each stiffness level written as two: the exact flow then works on other cells.
+
+    What differs between the two is rounding.
+
+    Parameters
+    ----------
+    osc : Oscillator
+
+    Returns
+    -------
+    Oscillator
+
+    Examples
+    --------
+    >>> len(recut(Oscillator()).stiffness.levels)
+    4
+    """
+    wave = osc.stiffness
+    starts = np.array([*wave.edges, 1.0])
+    edges = np.sort(np.concatenate([starts[:-1], starts[:-1] + CUT * np.diff(starts)]))
+    return osc.replace(stiffness=StiffnessWave(tuple(edges.tolist()), tuple(np.repeat(wave.levels, 2).tolist())))
+
+
+def impact_time_error(impacts: Impacts, reference: Impacts) -> float:
+    """The largest time between an impact of `reference` and the nearest of `impacts` on the same side.
+
+    Parameters
+    ----------
+    impacts, reference : Impacts
+        Of two computations of one motion.
+
+    Returns
+    -------
+    float
+        0 where `reference` has none; inf where one has no counterpart.
+
+    Examples
+    --------
+    >>> osc = Oscillator()
+    >>> there, here = (trajectory(each, 0.5, 0.0, 3).impacts for each in (recut(osc), osc))
+    >>> len(here) > 0 and impact_time_error(there, here) < 1e-12
+    True
+    """
+    worst = 0.0
+    for tau, side, contact in zip(reference.tau, reference.side, reference.contact, strict=True):
+        alike = impacts.tau[(impacts.side == side) & (impacts.contact == contact)]
+        worst = max(worst, float(np.abs(alike - tau).min(initial=np.inf)))
+    return worst
+
+
+def work_precision(
+    osc: Oscillator,
+    x: float,
+    v: float,
+    *,
+    n_starts: int = 12,
+    tolerances: Sequence[float] = (1e-3, 1e-5, 1e-7, 1e-9, 1e-11),
+) -> list[Precision]:
+    """One-period errors of every method against the exact flow, and the time they took.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    x, v : float
+        X and X' where the exact flow starts; the section points it then visits are the starts of all methods.
+    n_starts : int
+        How many, after 100 discarded.
+    tolerances : sequence of float
+        rtol of the integrators; atol is a thousandth of it.
+
+    Returns
+    -------
+    list of Precision
+        scipy's RK45, DOP853 and LSODA, the compiled RK45, and the exact flow. The exact flow's own error is what
+        changes when its cells do (`recut`), its rounding. Compiled methods are timed over many periods.
+
+    Raises
+    ------
+    ValueError
+        For an argument out of range.
+
+    Examples
+    --------
+    >>> measured = work_precision(Oscillator(), 1.0, 0.0, n_starts=2, tolerances=[1e-6])
+    >>> [m.method for m in measured]
+    ['RK45', 'DOP853', 'LSODA', 'RK45, compiled', 'exact flow']
+    >>> measured[-1].error < 1e-12
+    True
+    """
+    n_starts = check_count("n_starts", n_starts)
+    motion = trajectory(osc, x, v, n_starts, n_transient=100, samples_per_period=1)
+    starts = np.column_stack([motion.x, motion.v])
+    ends = np.column_stack(stroboscopic_map(osc, starts[:-1, 0], starts[:-1, 1]))
+    first = (float(starts[0, 0]), float(starts[0, 1]))
+    found: list[Precision] = []
+    for method in INTEGRATORS:
+        for rtol in tolerances:
+            run: dict[str, Any] = {"samples_per_period": 1, "method": method, "rtol": rtol, "atol": rtol * ATOL_SHARE}
+            errors, seconds = [], []
+            for (x0, v0), end in zip(starts[:-1].tolist(), ends, strict=True):
+                began = perf_counter()
+                integrated = integrated_trajectory(osc, x0, v0, 1, **run)
+                seconds.append(perf_counter() - began)
+                errors.append(max(abs(integrated.x[-1] - end[0]), abs(integrated.v[-1] - end[1])))
+            found.append(Precision(method, float(rtol), float(max(errors)), float(np.median(seconds))))
+    for rtol in tolerances:
+        tolerance: dict[str, Any] = {"rtol": rtol, "atol": rtol * ATOL_SHARE}
+        last = [runge_kutta_section(osc, x0, v0, 1, **tolerance)[-1] for x0, v0 in starts[:-1].tolist()]
+        seconds_each = _per_period(partial(runge_kutta_section, osc, *first, TIMED_PERIODS, **tolerance))
+        found.append(Precision(COMPILED, float(rtol), float(np.abs(last - ends).max()), seconds_each))
+    again = np.column_stack(stroboscopic_map(recut(osc), starts[:-1, 0], starts[:-1, 1]))
+    seconds_each = _per_period(partial(stroboscopic_map, osc, *first, n=TIMED_PERIODS))
+    return [*found, Precision(EXACT, np.nan, float(np.abs(again - ends).max()), seconds_each)]
+
+
+def _per_period(run: Callable[[], object]) -> float:
+    """Seconds per mesh period of a compiled run over `TIMED_PERIODS`: the best of three, once it is compiled."""
+    times = []
+    for _ in range(4):
+        began = perf_counter()
+        run()
+        times.append(perf_counter() - began)
+    return min(times[1:]) / TIMED_PERIODS
+
+
+def plain_sweep(
+    osc: Oscillator,
+    parameter: str,
+    values: ArrayLike,
+    *,
+    x: float = 1.0,
+    v: float = 0.0,
+    n_transient: int = 500,
+    n_samples: int = 128,
+    closeness: float = 0.01,
+) -> xr.Dataset:
+    """The exact flow under the rules of `runge_kutta_sweep`: a fixed transient, and the period read off the points.
+
+    What this misjudges is the fault of the rules; what `runge_kutta_sweep` misjudges beyond it, of the integrator.
+
+    Parameters
+    ----------
+    osc, parameter, values, x, v, n_transient, n_samples, closeness
+        As in `runge_kutta_sweep`; values are carried.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimensions ``(parameter, sample)``: ``x``, ``v``, and per value ``period`` (0 where none is seen).
+
+    Raises
+    ------
+    ValueError
+        For an argument out of range.
+    RuntimeError
+        Where the motion escapes.
+
+    Examples
+    --------
+    >>> plain_sweep(Oscillator(), "mesh_frequency", [1.65, 1.7]).period.values.tolist()
+    [2, 2]
+    """
+    oscillators, checked = oscillators_along(osc, parameter, values)
+    n_samples = check_count("n_samples", n_samples, at_least=2)
+    points = np.empty((len(checked), n_samples, 2))
+    for i, each in enumerate(oscillators):
+        motion = trajectory(each, x, v, n_samples - 1, n_transient=n_transient, samples_per_period=1)
+        points[i, :, 0], points[i, :, 1] = motion.x, motion.v
+        x, v = float(motion.x[-1]), float(motion.v[-1])
+    import xarray as xr  # here, so that importing gearpair stays quick
+
+    return xr.Dataset(
+        {
+            "x": ((parameter, "sample"), points[:, :, 0], attributes("x")),
+            "v": ((parameter, "sample"), points[:, :, 1], attributes("v")),
+            "period": (parameter, [apparent_period(section, closeness) for section in points], attributes("period")),
+        },
+        {parameter: (parameter, checked, attributes(parameter))},
+        {"seeding": "carry", "oscillator": repr(osc)},
+    )
+
+
+def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:
+    """Where a diagram shows disorder though the motion is periodic.
+
+    Parameters
+    ----------
+    exact : xarray.Dataset
+        Of `sweep`.
+    drawn : xarray.Dataset
+        Of `runge_kutta_sweep` or `plain_sweep` at the same values.
+
+    Returns
+    -------
+    ndarray of bool, shape (n,)
+
+    Raises
+    ------
+    ValueError
+        Where the two are not of the same values.
+
+    Examples
+    --------
+    >>> from gearpair import runge_kutta_sweep, sweep
+    >>> osc, values = Oscillator(), [1.65, 1.7]
+    >>> exact = sweep(osc, "mesh_frequency", values)
+    >>> numerical_chaos(exact, runge_kutta_sweep(osc, "mesh_frequency", values)).tolist()
+    [True, True]
+    """
+    parameter = str(exact.status.dims[0])
+    if not np.array_equal(exact[parameter].values, drawn[parameter].values):
+        raise ValueError(f"both diagrams must be of the same values of {parameter}")
+    return (exact.status.values == "periodic") & (drawn.period.values == 0)

@@ -1,0 +1,47 @@
+"""Motions of one oscillator, from a single trajectory to basins of attraction, and what they are called."""
+
+from gearpair.motion.datasets import symbol
+from gearpair.motion.impacts import ImpactState, impact_state
+from gearpair.motion.initial_conditions import attractor_names, attractor_states, basins, motion_shares
+from gearpair.motion.names import motion_name, motion_names
+from gearpair.motion.ranges import MotionRange, follow, found_ranges, motion_ranges, range_of, representatives
+from gearpair.motion.settling import Status, transient_periods
+from gearpair.motion.spectra import Spectrum, spectrum
+from gearpair.motion.stability import lyapunov_exponents, multipliers_of
+from gearpair.motion.steady import SteadyState, steady_state
+from gearpair.motion.sweeps import parameter_map, sweep
+from gearpair.motion.trajectories import Impacts, Trajectory, stroboscopic_map, trajectory
+from gearpair.motion.zero_one import zero_one_test
+
+__all__ = [
+    "ImpactState",
+    "Impacts",
+    "MotionRange",
+    "Spectrum",
+    "Status",
+    "SteadyState",
+    "Trajectory",
+    "attractor_names",
+    "attractor_states",
+    "basins",
+    "follow",
+    "found_ranges",
+    "impact_state",
+    "lyapunov_exponents",
+    "motion_name",
+    "motion_names",
+    "motion_ranges",
+    "motion_shares",
+    "multipliers_of",
+    "parameter_map",
+    "range_of",
+    "representatives",
+    "spectrum",
+    "steady_state",
+    "stroboscopic_map",
+    "sweep",
+    "symbol",
+    "trajectory",
+    "transient_periods",
+    "zero_one_test",
+]

@@ -1,0 +1,236 @@
+"""Which motion lives where: ranges of one parameter, and a representative of each motion."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gearpair._checks import check_number
+from gearpair.motion.datasets import oscillators_along
+from gearpair.motion.names import CHAOS, motion_name, motion_names, motion_order
+from gearpair.motion.steady import SteadyState, steady_state
+from gearpair.motion.sweeps import sweep
+from gearpair.oscillator import Oscillator
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+LARGEST_STEP = 0.2  # of X_min and X_max between two values of one motion, relative to their distance
+TRIES = 20  # values at which a representative is looked for again before the sweep is given up
+
+
+@dataclass(frozen=True)
+class MotionRange:
+    """A range of one parameter with one kind of motion.
+
+    Attributes
+    ----------
+    lower, upper : float
+        The first and the last value at which the motion was met.
+    motion : str
+        ``"period 1"``, ``"period 2"``, ..., ``"chaos"``, or the status of what is neither.
+    """
+
+    lower: float
+    upper: float
+    motion: str
+
+    @property
+    def width(self) -> float:
+        """``upper - lower``."""
+        return self.upper - self.lower
+
+
+def motion_ranges(result: xr.Dataset) -> tuple[MotionRange, ...]:
+    """The runs of one motion in a sweep, by rising parameter, whatever its direction was.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        Of `gearpair.sweep`.
+
+    Returns
+    -------
+    tuple of MotionRange
+
+    Examples
+    --------
+    >>> motion_ranges(sweep(Oscillator(), "mesh_frequency", [0.78, 0.74, 0.7]))
+    (MotionRange(lower=0.7, upper=0.74, motion='period 2'), MotionRange(lower=0.78, upper=0.78, motion='period 4'))
+    """
+    values = result[swept_parameter(result)].values
+    order = np.argsort(values)
+    named = zip(values[order].tolist(), motion_names(result)[order].tolist(), strict=True)
+    runs = [(motion, [value for value, _ in run]) for motion, run in groupby(named, key=lambda pair: pair[1])]
+    return tuple(MotionRange(run[0], run[-1], motion) for motion, run in runs)
+
+
+def found_ranges(*sweeps: xr.Dataset, narrowest: float = 0.0) -> tuple[MotionRange, ...]:
+    """Where each periodic motion was found by any of several sweeps, the runs that overlap joined.
+
+    A carried sweep follows a stable motion to its end: a rising sweep to the upper end, a falling one to the lower. The
+    ranges that the two give together are therefore the ranges of existence, to the step of the sweep, and they do not
+    depend on where a chaotic motion happened to be caught.
+
+    Parameters
+    ----------
+    *sweeps : xarray.Dataset
+        Of `gearpair.sweep`, over the same parameter.
+    narrowest : float
+        Ranges narrower than this are left out.
+
+    Returns
+    -------
+    tuple of MotionRange
+        By rising lower end; ranges of different motions may overlap.
+
+    Raises
+    ------
+    ValueError
+        For sweeps over different parameters, or a negative `narrowest`.
+    """
+    check_number("narrowest", narrowest, at_least=0.0)
+    if len({swept_parameter(result) for result in sweeps}) > 1:
+        raise ValueError(f"the sweeps must be over one parameter, got {', '.join(map(swept_parameter, sweeps))}")
+    found: list[MotionRange] = []
+    for run in sorted((run for result in sweeps for run in motion_ranges(result)), key=lambda run: run.lower):
+        if not run.motion.startswith("period "):
+            continue
+        same = [i for i, other in enumerate(found) if other.motion == run.motion and run.lower <= other.upper]
+        if same:
+            last = found[same[-1]]
+            found[same[-1]] = MotionRange(last.lower, max(last.upper, run.upper), run.motion)
+        else:
+            found.append(run)
+    wide = (run for run in found if run.width >= narrowest)
+    return tuple(sorted(wide, key=lambda run: (run.lower, motion_order(run.motion))))
+
+
+def swept_parameter(result: xr.Dataset) -> str:
+    """The parameter that a sweep varied."""
+    names = [str(name) for name in result.status.dims]
+    if len(names) != 1:
+        raise ValueError(f"a sweep over one parameter is needed, got a result over {', '.join(names)}")
+    return names[0]
+
+
+def representatives(
+    osc: Oscillator,
+    *sweeps: xr.Dataset,
+    motions: Sequence[str] = ("period 1", "period 2", "period 3", "period 4", CHAOS),
+    near: Mapping[str, float] | None = None,
+) -> dict[str, SteadyState]:
+    """One settled motion of each kind, from the sweeps that met it.
+
+    The sweeps are asked in turn, and the first that met the motion gives it: at the middle of its widest run, or
+    at the value nearest to the one given in `near`. A motion that no sweep met is left out.
+
+    Parameters
+    ----------
+    osc : Oscillator
+        What was swept.
+    *sweeps : xarray.Dataset
+        Of `gearpair.sweep`, the preferred first.
+    motions : sequence of str
+        Names as `motion_name` gives them.
+    near : mapping of str to float, optional
+        Where to look for some of the motions.
+
+    Returns
+    -------
+    dict of str to SteadyState
+    """
+    found = {}
+    for motion in motions:
+        for result in sweeps:
+            parameter = swept_parameter(result)
+            met = [run for run in motion_ranges(result) if run.motion == motion]
+            if not met:
+                continue
+            widest = max(met, key=lambda run: run.width)
+            target = (near or {}).get(motion, 0.5 * (widest.lower + widest.upper))
+            where = np.flatnonzero(motion_names(result) == motion)
+            nearest = where[np.argsort(np.abs(result[parameter].values[where] - target), kind="stable")]
+            state = next(filter(None, (_settled_again(osc, result, i, motion) for i in nearest[:TRIES])), None)
+            if state is not None:
+                found[motion] = state
+                break
+    return found
+
+
+def _settled_again(osc: Oscillator, result: xr.Dataset, i: int, motion: str) -> SteadyState | None:
+    """The motion at value `i` of a sweep, or None where it was about to become another (a chaotic transient)."""
+    parameter = swept_parameter(result)
+    x, v = (float(result[name].values[i, 0]) for name in ("x", "v"))
+    state = steady_state(osc.replace(**{parameter: float(result[parameter].values[i])}), x, v)
+    return state if motion_name(state.status, state.period) == motion else None
+
+
+def follow(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> tuple[xr.Dataset, ...]:
+    """Carried sweeps from one settled motion towards both ends of the values, to see how far it lives.
+
+    Parameters
+    ----------
+    state : SteadyState
+        Bounded; its own value of the parameter need not be among `values`.
+    parameter : str
+        One of ``state.oscillator.parameters``.
+    values : array_like of float, shape (n,)
+        In any order.
+    **settings
+        As for `gearpair.sweep`.
+
+    Returns
+    -------
+    tuple of xarray.Dataset
+        The falling sweep and the rising one; only one of them where the motion lies at an end of the values.
+
+    Examples
+    --------
+    >>> falling, rising = follow(steady_state(Oscillator()), "mesh_frequency", [0.65, 0.7, 0.75, 0.78])
+    >>> found_ranges(falling, rising)[-1]
+    MotionRange(lower=0.78, upper=0.78, motion='period 4')
+    """
+    _, checked = oscillators_along(state.oscillator, parameter, values)
+    here, ordered = state.oscillator.parameter(parameter), np.sort(checked)
+    x, v = map(float, state.points[0])
+    ways = (ordered[ordered <= here][::-1], ordered[ordered >= here])
+    return tuple(sweep(state.oscillator, parameter, way, x=x, v=v, **settings) for way in ways if len(way))
+
+
+def range_of(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> MotionRange:
+    """How far one settled motion lives: the part of `follow` in which it keeps its period and its size.
+
+    From one value to the next X_min and X_max may change by no more than a fifth of their distance; a larger step is a
+    jump to another motion.
+
+    Parameters
+    ----------
+    state, parameter, values, **settings
+        As for `follow`.
+
+    Returns
+    -------
+    MotionRange
+
+    Examples
+    --------
+    >>> range_of(steady_state(Oscillator()), "mesh_frequency", [0.65, 0.7, 0.75, 0.78]).upper
+    0.75
+    """
+    name, here = motion_name(state.status, state.period), state.oscillator.parameter(parameter)
+    ends = [here, here]
+    for result in follow(state, parameter, values, **settings):
+        visited = result[parameter].values
+        sizes = np.stack([result.x_min.values, result.x_max.values])
+        steps = np.abs(np.diff(sizes, axis=1, prepend=[[state.x_min], [state.x_max]])).max(axis=0)
+        changed = np.flatnonzero((motion_names(result) != name) | ~(steps <= LARGEST_STEP * np.ptp(sizes, axis=0)))
+        kept = visited[: changed[0]] if len(changed) else visited
+        if len(kept):
+            ends = [min(ends[0], float(kept.min())), max(ends[1], float(kept.max()))]
+    return MotionRange(ends[0], ends[1], name)

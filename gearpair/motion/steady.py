@@ -1,0 +1,132 @@
+"""The settled motion from one start, fully described."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearpair._flow.settle import Settled
+from gearpair.motion.impacts import ImpactState, impact_state
+from gearpair.motion.settling import STATUSES, SettleSettings, Status, settle_lanes
+from gearpair.motion.stability import multipliers_of
+from gearpair.motion.trajectories import check_start
+from gearpair.oscillator import Oscillator
+
+
+@dataclass(frozen=True)
+class SteadyState:
+    """A settled motion.
+
+    Attributes
+    ----------
+    oscillator : Oscillator
+    status : Status
+        ``"periodic"``, ``"aperiodic"``, ``"unsettled"``, ``"escaped"`` or ``"capped"``;
+        ``status.remedy`` says what to do.
+    period : int or None
+        In mesh periods; None unless periodic.
+    points : ndarray of float, shape (n, 2)
+        X and X' on the section, in the order visited: the whole cycle from its smallest X where the motion is periodic,
+        `n_samples` successive points where it stayed bounded, none where not.
+    multipliers : ndarray of complex, shape (2,)
+        Floquet multipliers of the cycle, the largest modulus first; nan unless periodic.
+    x_min, x_max : float
+        Extremes of X, at exact roots of X' (dimensionless); over a finite span unless periodic.
+    impact_state : ImpactState or None
+        None where the motion did not stay bounded.
+    lyapunov_exponents : ndarray of float, shape (2,)
+        Per unit tau, descending; their sum is ``-2 zeta``.
+    exponent_error : float
+        Standard error of the largest exponent; 0 for a periodic motion.
+    """
+
+    oscillator: Oscillator
+    status: Status
+    period: int | None
+    points: NDArray[np.float64]
+    multipliers: NDArray[np.complex128]
+    x_min: float
+    x_max: float
+    impact_state: ImpactState | None
+    lyapunov_exponents: NDArray[np.float64]
+    exponent_error: float
+
+
+def steady_state(
+    osc: Oscillator,
+    x: float = 1.0,
+    v: float = 0.0,
+    *,
+    n_transient: int | None = None,
+    max_period: int = 64,
+    n_exponent: int = 2000,
+    n_samples: int = 256,
+) -> SteadyState:
+    """Follow the motion from (x, v) until it has settled, and describe what it settled on.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    x, v : float
+        X and X' at the start of a mesh period.
+    n_transient : int, optional
+        Mesh periods at most before the motion is judged; `transient_periods` of the oscillator when not given.
+    max_period : int
+        The longest period looked for, in mesh periods.
+    n_exponent : int
+        Mesh periods over which the exponents of a motion that is not periodic are measured.
+    n_samples : int
+        Section points kept of a motion that is not periodic.
+
+    Returns
+    -------
+    SteadyState
+
+    Raises
+    ------
+    ValueError
+        For an argument out of range.
+
+    Notes
+    -----
+    A motion is *periodic* when it returns within 1e-8 of itself (relative to max(1, |X|, |X'|)) and Newton's
+    method finds a stable orbit of that period within 1e-6 of it; after the whole transient, also when it
+    approaches a stable orbit within 1e-2. The points and multipliers are those of the orbit, exact to rounding.
+    Otherwise it is *aperiodic* when its largest Lyapunov exponent exceeds four standard errors, and *unsettled*
+    when not.
+
+    Examples
+    --------
+    >>> state = steady_state(Oscillator())
+    >>> str(state.status), state.period, str(state.impact_state)
+    ('periodic', 2, 'single_drive')
+    """
+    start = check_start(x, v)
+    settings = SettleSettings(
+        n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=max(n_samples, max_period)
+    )
+    out = settle_lanes([osc], np.array([start]), settings)
+    return describe(osc, out, 0)
+
+
+def describe(osc: Oscillator, out: Settled, i: int) -> SteadyState:
+    """Row `i` of the kernels' results in the library's words."""
+    status = STATUSES[out.status[i]]
+    period = int(out.period[i]) or None
+    bounded = status not in (Status.ESCAPED, Status.CAPPED)
+    points = out.points[i] if bounded else out.points[i][:0]
+    x_min, x_max = map(float, out.extremes[i])
+    return SteadyState(
+        oscillator=osc,
+        status=status,
+        period=period,
+        points=points[:period].copy(),
+        multipliers=multipliers_of(out.monodromy[i]),
+        x_min=x_min,
+        x_max=x_max,
+        impact_state=impact_state(x_min, x_max) if bounded else None,
+        lyapunov_exponents=out.exponents[i, :2].copy(),
+        exponent_error=float(out.exponents[i, 2]),
+    )

@@ -1,0 +1,227 @@
+"""The motion from one start: the stroboscopic map and the trajectory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair._checks import check_count
+from gearpair._cores import on_all_cores
+from gearpair._flow.closed_form import TERMS
+from gearpair._flow.march import (
+    ESCAPED,
+    EVENT_UNDECIDED,
+    MAX_EVENTS_PER_PERIOD,
+    OK,
+    TOO_MANY_EVENTS,
+    march,
+    march_starts,
+)
+from gearpair._flow.observe import record
+from gearpair.oscillator import Oscillator
+
+PERIODS_AT_ONCE = 10_000  # of the march, between two chances to stop: some ten milliseconds
+CAPPED = {
+    TOO_MANY_EVENTS: f"more than {MAX_EVENTS_PER_PERIOD} contacts and separations in one mesh period: "
+    "raise mesh_frequency, or lower error_amplitude, until the motion is one that a gear can make",
+    EVENT_UNDECIDED: "an impact could not be told from a near miss: change the start by a rounding error "
+    "and report the oscillator and start as a bug",
+}
+
+
+@dataclass(frozen=True)
+class Impacts:
+    """Every crossing of X = +-1, in order; all arrays have shape (n,).
+
+    Attributes
+    ----------
+    tau : ndarray of float
+        Dimensionless time.
+    side : ndarray of int
+        +1 for the drive side, -1 for the coast side.
+    velocity : ndarray of float
+        X' there (dimensionless).
+    contact : ndarray of bool
+        True where contact begins, False where it ends (separation).
+    """
+
+    tau: NDArray[np.float64]
+    side: NDArray[np.int64]
+    velocity: NDArray[np.float64]
+    contact: NDArray[np.bool_]
+
+    def __len__(self) -> int:
+        return len(self.tau)
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """A sampled motion; `tau`, `x` and `v` have shape (n_periods * samples_per_period + 1,).
+
+    Attributes
+    ----------
+    oscillator : Oscillator
+    tau, x, v : ndarray of float
+        Dimensionless time from 0 (after the transient), X and X'; the end point is included.
+    impacts : Impacts
+    samples_per_period : int
+        Samples per mesh period: ``x[::samples_per_period]`` is the Poincaré section.
+    method : str
+        ``"exact"`` or the name of the integrator.
+    """
+
+    oscillator: Oscillator
+    tau: NDArray[np.float64]
+    x: NDArray[np.float64]
+    v: NDArray[np.float64]
+    impacts: Impacts
+    samples_per_period: int
+    method: str
+
+
+def check_starts(x: ArrayLike, v: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Broadcast starts against each other, or raise a ValueError that says what is wrong with them."""
+    try:
+        xs, vs = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(v, dtype=float))
+    except (TypeError, ValueError):
+        raise ValueError(
+            f"x and v must be numbers of shapes that broadcast, got shapes {np.shape(x)} and {np.shape(v)}"
+        ) from None
+    for name, values in (("x", xs), ("v", vs)):
+        if not np.all(np.isfinite(values)):
+            raise ValueError(f"{name} must be finite, got {values[~np.isfinite(values)].flat[0]}")
+    return xs, vs
+
+
+def check_start(x: ArrayLike, v: ArrayLike) -> tuple[float, float]:
+    """One start as two floats, or a ValueError that says what is wrong with it."""
+    xs, vs = check_starts(x, v)
+    if xs.ndim:
+        raise ValueError(f"x and v must be single numbers, got shape {xs.shape}")
+    return float(xs), float(vs)
+
+
+def stroboscopic_map(
+    osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The state `n` mesh periods after (x, v) on the section ``tau mod T = 0``.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    x, v : array_like of float
+        X and X' at the start of a mesh period; broadcast against each other.
+    n : int
+        Mesh periods, at least 0.
+
+    Returns
+    -------
+    x, v : ndarray of float
+        The broadcast shape. A start that escapes to infinity comes back as +-inf.
+
+    Raises
+    ------
+    ValueError
+        For starts that are not finite or do not broadcast, or an `n` below 0.
+    RuntimeError
+        Where the march is capped; the message says what to do.
+
+    Notes
+    -----
+    A start has escaped when |X| + |X'| exceeds 1e6 at the end of a mesh period and the
+    always-in-contact equation, which governs such motions, is parametrically unstable (Floquet).
+
+    Examples
+    --------
+    >>> osc = Oscillator()
+    >>> x, v = stroboscopic_map(osc, [0.0, 1.0], 0.0, n=500)
+    >>> bool(abs(x[0] - x[1]) < 1e-12)
+    True
+    """
+    xs, vs = check_starts(x, v)
+    n = check_count("n", n, at_least=0)
+    starts = np.stack([xs.ravel(), vs.ravel()], axis=1)
+    ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
+    block = max(1, PERIODS_AT_ONCE // max(n, 1))
+    on_all_cores(march_starts, (osc._cells, starts, n, ends, status), len(starts), block)
+    for code, remedy in CAPPED.items():
+        if np.any(status == code):
+            i = int(np.argmax(status == code))
+            raise RuntimeError(f"start x = {starts[i, 0]}, v = {starts[i, 1]}: {remedy}")
+    gone = status == ESCAPED
+    ends[gone] = np.copysign(np.inf, ends[gone])
+    return ends[:, 0].reshape(xs.shape), ends[:, 1].reshape(xs.shape)
+
+
+def trajectory(
+    osc: Oscillator,
+    x: float,
+    v: float,
+    n_periods: int,
+    *,
+    n_transient: int = 0,
+    samples_per_period: int = 128,
+) -> Trajectory:
+    """The motion from (x, v) at the start of a mesh period, sampled, with every impact.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    x, v : float
+        X and X' at the start (dimensionless).
+    n_periods : int
+        Mesh periods to keep, at least 1.
+    n_transient : int
+        Mesh periods to run first and discard.
+    samples_per_period : int
+        Samples per mesh period.
+
+    Returns
+    -------
+    Trajectory
+
+    Raises
+    ------
+    ValueError
+        For an argument out of range.
+    RuntimeError
+        Where the motion escapes to infinity or the march is capped.
+
+    Examples
+    --------
+    >>> motion = trajectory(Oscillator(), 1.0, 0.0, 2, n_transient=500)
+    >>> motion.x.shape
+    (257,)
+    >>> len(motion.impacts)
+    4
+    """
+    x, v = check_start(x, v)
+    n_periods = check_count("n_periods", n_periods)
+    n_transient = check_count("n_transient", n_transient, at_least=0)
+    samples_per_period = check_count("samples_per_period", samples_per_period)
+    status, x, v = march(osc._cells, x, v, n_transient, np.empty(TERMS))
+    raise_unless_ok(status, n_transient)
+    samples = np.empty((n_periods * samples_per_period + 1, 2))
+    crossings = np.empty((0, 4))
+    status, done, n = record(osc._cells, x, v, n_periods, samples_per_period, samples, crossings)
+    raise_unless_ok(status, n_transient + done)
+    crossings = np.empty((n, 4))
+    record(osc._cells, x, v, n_periods, samples_per_period, samples, crossings)
+    impacts = Impacts(
+        crossings[:, 0] * osc.period, crossings[:, 1].astype(int), crossings[:, 2].copy(), crossings[:, 3] == 1.0
+    )
+    tau = np.linspace(0.0, n_periods * osc.period, len(samples))
+    return Trajectory(osc, tau, samples[:, 0], samples[:, 1], impacts, samples_per_period, "exact")
+
+
+def raise_unless_ok(status: int, periods: int) -> None:
+    """Raise the RuntimeError that says why a march of `periods` mesh periods stopped, if it did."""
+    if status == ESCAPED:
+        raise RuntimeError(
+            f"the motion escapes to infinity within {periods} mesh periods: contact is parametrically unstable at "
+            "this mesh frequency; start nearer to the backlash zone, or raise damping_ratio"
+        )
+    if status != OK:
+        raise RuntimeError(CAPPED[status])

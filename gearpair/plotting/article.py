@@ -1,0 +1,107 @@
+"""Hypotheses about the published tables: their scores, and the motions that they have."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from gearpair.article import published
+from gearpair.article.existence import Reached
+from gearpair.article.readings import Hypothesis
+from gearpair.article.scoring import published_labels
+from gearpair.article.trials import Ranked
+from gearpair.plotting.style import BOUNDARY, INK, LABELS, motion_colour, new_axes
+
+
+def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax: Axes | None = None) -> Axes:
+    """Mean and best score of every hypothesis, in their order.
+
+    Parameters
+    ----------
+    ranked : sequence of Ranked
+        Of `gearpair.hypotheses.ranking`.
+    marked : mapping of str to Hypothesis
+        The ones to name.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+        With a bar from the mean to the best score for each.
+    """
+    ax = new_axes(ax, 2.6)
+    places = np.arange(1, len(ranked) + 1)
+    means, best = ([entry.mean for entry in ranked], [entry.best.total for entry in ranked])
+    ax.vlines(places, means, best, color="#C9C3B8", linewidth=1.5)
+    ax.plot(places, means, "o", markersize=2.5, color=INK, label="mean over its diagrams")
+    ax.plot(places, best, "_", markersize=4, color=BOUNDARY, label="its best diagram")
+    for name, hypothesis in marked.items():
+        for place, entry in zip(places, ranked, strict=True):
+            if entry.hypothesis == hypothesis:
+                ax.annotate(
+                    name, (place, entry.best.total), xytext=(6, 8), textcoords="offset points", fontsize=8.5,
+                    arrowprops={"arrowstyle": "-", "color": BOUNDARY, "linewidth": 0.7},
+                )  # fmt: skip
+    ax.set(xlabel="place", ylabel="score", xlim=(0, len(ranked) + 1), ylim=(0.0, 1.0))
+    ax.legend(loc="upper right")
+    return ax
+
+
+def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = "") -> Axes:
+    """Where each motion exists along a parameter, over the published ranges.
+
+    Parameters
+    ----------
+    reached : Reached
+        Of `gearpair.hypotheses.reached`.
+    ax : Axes, optional
+    title : str
+
+    Returns
+    -------
+    Axes
+        A row for each published motion: an outlined box where it is published, a dot where it was reached.
+    """
+    words = list(dict.fromkeys(published_labels(reached.parameter)))
+    ax = new_axes(ax, 0.7 + 0.3 * len(words))
+    values = reached.values
+    for row, word in enumerate(words):
+        colour = motion_colour(f"period {word}" if word.isdigit() else word)
+        for stated in published.ranges(reached.parameter):
+            if str(stated.period or stated.motion) == word:
+                width = stated.upper - stated.lower
+                ax.barh(row, width, left=stated.lower, height=0.8, color=colour, alpha=0.25, linewidth=0)
+        here = values[reached.has(word)]
+        ax.plot(here, np.full(len(here), row), "o", markersize=3.5, color=colour)
+    ax.set_yticks(range(len(words)), [f"period {word}" if word.isdigit() else word for word in words])
+    ranges = published.ranges(reached.parameter)
+    ax.set(xlabel=LABELS[reached.parameter], xlim=(ranges[0].lower, ranges[-1].upper), ylim=(len(words) - 0.5, -0.5))
+    ax.set_title(title)
+    return ax
+
+
+def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], ax: Axes | None = None) -> Axes:
+    """The share of both published axes that each phase between forcing and stiffness can account for.
+
+    Parameters
+    ----------
+    frequency, damping : sequence of Reached
+        Along the two parameters, for the same hypotheses in the same order.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+        With one curve for each axis.
+    """
+    ax = new_axes(ax, 2.4)
+    for one, name, style in ((frequency, "frequency table", "o-"), (damping, "damping table", "s--")):
+        phases = [reached.hypothesis.phase for reached in one]
+        ax.plot(phases, [reached.coverage for reached in one], style, markersize=3, linewidth=1.0, label=name)
+    ax.axvline(0.0, color=BOUNDARY, linewidth=0.7)
+    ax.set(xlabel="phase of the forcing (degrees)", ylabel="share accounted for", ylim=(0.0, 1.05))
+    ax.set_xticks(range(-180, 181, 60))
+    ax.legend(loc="upper right")
+    return ax

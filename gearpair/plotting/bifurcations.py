@@ -1,0 +1,122 @@
+"""Branches of periodic orbits and curves of their bifurcations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.legend import Legend
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+
+from gearpair.bifurcations.branches import Branch
+from gearpair.bifurcations.curves import BifurcationCurve
+from gearpair.plotting.style import INK, LABELS, motion_colour, new_axes
+
+MARKERS = {"fold": "^", "flip": "o", "grazing": "D"}
+DASHES: dict[str, Any] = {"fold": "-", "flip": "--", "grazing": ":"}
+
+
+def branches(
+    found: Iterable[Branch], ax: Axes | None = None, *, periods: Sequence[int] | None = None, markers: bool = True
+) -> Axes:
+    """X on the section along branches of orbits: solid where stable, dashed where unstable, bifurcations marked.
+
+    Parameters
+    ----------
+    found : iterable of Branch
+        Along one parameter.
+    ax : Axes, optional
+        For example that of a `bifurcation_diagram`, to draw over its points.
+    periods : sequence of int, optional
+        The periods to draw; all when not given.
+    markers : bool
+        Mark folds (triangles), flips (circles) and grazings (diamonds).
+
+    Returns
+    -------
+    Axes
+        With one line for each run of stable or of unstable orbits of each section point of each branch.
+    """
+    ax = new_axes(ax)
+    kinds = set()
+    for branch in found:
+        if periods is not None and branch.period not in periods:
+            continue
+        colour = motion_colour(f"period {branch.period}")
+        for stable in (False, True):
+            for k in range(branch.period):
+                shown = np.where(_runs(branch.stable, stable), branch.points[:, k, 0], np.nan)
+                style = {"linewidth": 1.4} if stable else {"linewidth": 0.6, "linestyle": (0, (3, 2)), "alpha": 0.8}
+                ax.plot(branch.values, shown, color=colour, **style)
+        for b in branch.bifurcations if markers else ():
+            kinds.add(b.kind)
+            ax.plot(
+                b.value, b.x, marker=MARKERS[b.kind], markersize=3.6, color=colour, markeredgecolor="white",
+                markeredgewidth=0.5, linestyle="", zorder=5,
+            )  # fmt: skip
+        ax.set_xlabel(LABELS[branch.parameter])
+    ax.set_ylabel(LABELS["section"])
+    handles = [Line2D([], [], marker=MARKERS[k], linestyle="", color="#555555", label=k) for k in MARKERS if k in kinds]
+    if handles:
+        _add_key(ax, handles)
+    return ax
+
+
+def _add_key(ax: Axes, handles: list[Line2D]) -> None:
+    """A key inside the axes, beside the legend of motions that may stand above them."""
+    names = [str(handle.get_label()) for handle in handles]
+    ax.add_artist(
+        Legend(
+            ax, handles, names, loc="upper right", ncols=len(handles), framealpha=0.9, edgecolor="none", frameon=True
+        )
+    )
+
+
+def _runs(stable: np.ndarray, wanted: bool) -> np.ndarray:
+    """Where orbits are as wanted, widened by one so that solid and dashed runs meet."""
+    inside = stable == wanted
+    if wanted:
+        return inside
+    widened = inside.copy()
+    widened[1:] |= inside[:-1]
+    widened[:-1] |= inside[1:]
+    return widened
+
+
+def bifurcation_curves(
+    curves: Iterable[BifurcationCurve], ax: Axes | None = None, *, colour: str | None = None
+) -> Axes:
+    """Curves of folds (solid), flips (dashed) and grazings (dotted) in the plane of two parameters.
+
+    Parameters
+    ----------
+    curves : iterable of BifurcationCurve
+        In the same two parameters.
+    ax : Axes, optional
+        For example that of a `period_map`, to draw over it.
+    colour : str, optional
+        Of all curves; that of the orbit's period when not given.
+
+    Returns
+    -------
+    Axes
+        With one line for each curve.
+    """
+    ax = new_axes(ax)
+    drawn = list(curves)
+    for curve in drawn:
+        shade = colour or motion_colour(f"period {curve.period}")
+        halo = [withStroke(linewidth=2.4, foreground="white")]
+        ax.plot(*curve.values.T, color=shade, linestyle=DASHES[curve.kind], linewidth=1.1, path_effects=halo)
+        ax.set(xlabel=LABELS[curve.parameters[0]], ylabel=LABELS[curve.parameters[1]])
+    kinds = [kind for kind in DASHES if any(kind == curve.kind for curve in drawn)]
+    handles = [Line2D([], [], color=colour or INK, linestyle=DASHES[kind], label=kind) for kind in kinds]
+    if colour is None:
+        periods = sorted({curve.period for curve in drawn})
+        handles += [Line2D([], [], color=motion_colour(f"period {p}"), label=f"period {p}") for p in periods]
+    if handles:
+        _add_key(ax, handles)
+    return ax

@@ -1,0 +1,255 @@
+"""The method: what accuracy costs, how a step is certified, and what an integrator draws."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from gearpair.methods.certificates import Segment
+from gearpair.methods.precision import EXACT, Precision, numerical_chaos
+from gearpair.motion.ranges import swept_parameter
+from gearpair.plotting.style import BOUNDARY, INK, LABELS, new_axes
+
+METHOD_LOOKS = {
+    "RK45": ("#E69F00", "o"),
+    "DOP853": ("#009E73", "s"),
+    "LSODA": ("#CC79A7", "^"),
+    "RK45, compiled": ("#D55E00", "D"),
+    EXACT: (INK, "*"),
+}
+FALSE_CHAOS, FAINT = "#C8102E", "#9A9A9A"
+CUBIC, STEP = "#E69F00", "#D55E00"
+T = "$t$ (widths of the cell)"
+
+
+def work_precision(measured: Sequence[Precision], ax: Axes | None = None) -> Axes:
+    """Time per mesh period against the one-period error, a line for each method.
+
+    Parameters
+    ----------
+    measured : sequence of Precision
+        Of `gearpair.work_precision`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+        Logarithmic, with one line for each method.
+    """
+    ax = new_axes(ax, 4.2)
+    for method in dict.fromkeys(m.method for m in measured):
+        runs = [m for m in measured if m.method == method]
+        colour, marker = METHOD_LOOKS.get(method, (FAINT, "x"))
+        error = [max(m.error, 2.0**-53) for m in runs]
+        ax.plot(
+            error, [m.seconds for m in runs], color=colour, marker=marker, label=method,
+            markersize=13 if method == EXACT else 5,
+        )  # fmt: skip
+    ax.set(xscale="log", yscale="log", xlabel="largest error after one mesh period", ylabel="seconds per mesh period")
+    ax.invert_xaxis()
+    ax.grid(linewidth=0.4, color="#DDDDDD")
+    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return ax
+
+
+def drawn_diagram(
+    exact: xr.Dataset, drawn: xr.Dataset, ax: Axes | None = None, *, title: str = "", legend: bool = True
+) -> Axes:  # fmt: skip
+    """A diagram as an integrator draws it, its numerical chaos in red.
+
+    Parameters
+    ----------
+    exact : xarray.Dataset
+        Of `gearpair.sweep`: what is true.
+    drawn : xarray.Dataset
+        Of `gearpair.runge_kutta_sweep` at the same values.
+    ax : Axes, optional
+    title : str
+        Stands inside the axes, top left.
+    legend : bool
+        Name the colours above the axes.
+
+    Returns
+    -------
+    Axes
+        With two lines of dots: what may be believed, then what the integrator made up.
+    """
+    ax = new_axes(ax)
+    parameter = swept_parameter(exact)
+    false = numerical_chaos(exact, drawn)
+    for chosen, colour, size, label in (
+        (~false, INK, 1.7, "periodic, or chaos in truth too"),
+        (false, FALSE_CHAOS, 1.7, "numerical chaos"),
+    ):
+        x = drawn.x.values[chosen]
+        ax.plot(
+            np.repeat(drawn[parameter].values[chosen], x.shape[1]), x.ravel(), linestyle="", marker=".",
+            markeredgewidth=0, markersize=size, color=colour, label=label, rasterized=True,
+        )  # fmt: skip
+    values = drawn[parameter].values
+    ax.set(xlabel=LABELS[parameter], ylabel=LABELS["section"], xlim=(values.min(), values.max()))
+    ax.annotate(
+        title, (0.0, 1.0), xytext=(6, -4), xycoords="axes fraction", textcoords="offset points", va="top",
+        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 1.5},
+    )  # fmt: skip
+    if legend:
+        ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, markerscale=5.0, borderaxespad=0.2)
+    return ax
+
+
+def certificate(segment: Segment | None, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """A segment with its Bézier points, their hull and the boundaries in sight.
+
+    Parameters
+    ----------
+    segment : Segment or None
+    ax : Axes, optional
+    legend : bool
+
+    Returns
+    -------
+    Axes
+        With lines labelled ``"motion"`` and ``"Bézier points"``, and ``"crossing"`` where there is one.
+    """
+    ax = new_axes(ax)
+    if segment is None:
+        return _none_met(ax)
+    t = np.linspace(0.0, segment.span, 201)
+    points = segment.control_points
+    low, high = points[:, 1].min() - segment.spread, points[:, 1].max() + segment.spread
+    ax.axhspan(low, high, color=CUBIC, alpha=0.13, linewidth=0, label="hull $\\pm$ spread")
+    ax.plot(*points.T, color=CUBIC, linestyle="--", marker="s", markersize=5, linewidth=1.0, label="Bézier points")
+    ax.plot(t, segment(t), color=INK, linewidth=1.8, label="motion")
+    if segment.crossing is not None:
+        ax.plot(
+            segment.crossing, segment(segment.crossing), color=STEP, marker="o", markersize=7, linestyle="",
+            label="crossing",
+        )  # fmt: skip
+    _show_boundaries(segment, ax, low, high)
+    ax.set(xlabel=T, ylabel=LABELS["x"], xlim=(0.0, segment.span))
+    if legend:
+        ax.legend()
+    return ax
+
+
+def _none_met(ax: Axes) -> Axes:
+    """Say that there is nothing to show."""
+    ax.annotate("none met", (0.5, 0.5), xycoords="axes fraction", ha="center", va="center", color=BOUNDARY)
+    ax.set_axis_off()
+    return ax
+
+
+def _show_boundaries(segment: Segment, ax: Axes, low: float, high: float) -> None:
+    """The boundaries that lie within the limits or near them."""
+    room = 0.25 * (high - low)
+    near = [b for b in segment.boundaries if low - 2.0 * room <= b <= high + 2.0 * room]
+    for boundary in near:
+        ax.axhline(boundary, color=BOUNDARY, linewidth=1.4)
+        ax.annotate(
+            f"$X = {boundary:g}$", (1.0, boundary), xycoords=("axes fraction", "data"), xytext=(-3, 3),
+            textcoords="offset points", ha="right", color=BOUNDARY, fontsize=8,
+        )  # fmt: skip
+    ax.set_ylim(min([low, *near]) - room, max([high, *near]) + room)
+
+
+def interpolation_error(segment: Segment | None, ax: Axes | None = None) -> Axes:
+    """The motion less its cubic Hermite interpolant, between the bounds.
+
+    Parameters
+    ----------
+    segment : Segment or None
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+        With one line labelled ``"motion - cubic"``.
+    """
+    ax = new_axes(ax)
+    if segment is None:
+        return _none_met(ax)
+    t = np.linspace(0.0, segment.span, 201)
+    power = int(np.floor(np.log10(segment.spread)))
+    spread, difference = segment.spread * 10.0**-power, (segment(t) - segment.cubic(t)) * 10.0**-power
+    ax.axhspan(-spread, spread, color=CUBIC, alpha=0.13, linewidth=0)
+    for sign in (-1.0, 1.0):
+        ax.axhline(sign * spread, color=CUBIC, linewidth=1.0, label="$\\pm$ spread" if sign > 0 else None)
+    ax.plot(t, difference, color=INK, linewidth=1.8, label="motion - cubic")
+    ax.set(xlabel=T, ylabel=f"difference in $X$ ($10^{{{power}}}$)", xlim=(0.0, segment.span))
+    ax.legend(loc="upper right")
+    ax.set_ylim(-1.3 * spread, 2.2 * spread)
+    return ax
+
+
+def certified_steps(segment: Segment | None, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """The distance to the boundary that limits the steps, and the parabola under it that certifies each step.
+
+    Parameters
+    ----------
+    segment : Segment or None
+    ax : Axes, optional
+    legend : bool
+
+    Returns
+    -------
+    Axes
+        With a line labelled ``"distance"``, one line for each parabola, and a dot where each step starts.
+    """
+    ax = new_axes(ax)
+    if segment is None:
+        return _none_met(ax)
+    steps, _crossing = segment.certified_steps()
+    boundary = min(steps, key=lambda step: step.d).boundary
+    shown = [step for step in steps if step.boundary == boundary]
+    sign = -boundary if segment.region == 0 else float(segment.region)
+    t = np.linspace(0.0, segment.span, 201)
+    distance = sign * (segment(t) - boundary)
+    ax.axhline(0.0, color=BOUNDARY, linewidth=1.4)
+    for i, step in enumerate(shown):
+        h = np.linspace(0.0, step.length, 101)
+        ax.plot(
+            step.t + h, step.d + step.u * h + 0.5 * step.m * h * h, color=STEP, linewidth=1.2, linestyle="--",
+            label="lower bound" if i == 0 else None,
+        )  # fmt: skip
+        ax.plot(
+            step.t, step.d, color=STEP, marker="o", markersize=4.5, linestyle="",
+            label="start of a step" if i == 0 else None,
+        )  # fmt: skip
+    ax.plot(t, distance, color=INK, linewidth=1.8, label="distance", zorder=1.5)
+    top = max(step.d for step in shown) if segment.crossing is not None else distance.max()
+    ax.set(xlabel=T, ylabel=f"distance to $X = {boundary:g}$", xlim=(0.0, segment.span), ylim=(-0.25 * top, 1.6 * top))
+    if legend:
+        ax.legend()
+    return ax
+
+
+def step_convergence(segment: Segment | None, ax: Axes | None = None) -> Axes:
+    """The distance left at each certified step towards a crossing.
+
+    Parameters
+    ----------
+    segment : Segment or None
+        With a crossing.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+        Logarithmic, with one line labelled ``"distance"``.
+    """
+    ax = new_axes(ax)
+    if segment is None:
+        return _none_met(ax)
+    steps, _crossing = segment.certified_steps()
+    ax.plot(
+        range(len(steps)), [max(step.d, 2.0**-53) for step in steps], color=INK, marker="o", markersize=5,
+        label="distance",
+    )  # fmt: skip
+    ax.axhline(2.0**-52, color=BOUNDARY, linewidth=0.9, linestyle=":")
+    ax.annotate("rounding", (0.02, 2.0**-52), xycoords=("axes fraction", "data"), xytext=(0, 3),
+                textcoords="offset points", color=BOUNDARY, fontsize=8)  # fmt: skip
+    ax.set(xlabel="step", ylabel="distance at its start", yscale="log", xticks=range(len(steps)), ylim=(1e-17, None))
+    return ax

@@ -1,0 +1,20 @@
+"""Tooth geometry to mesh stiffness: the drawing of a pair, the compliance of its teeth, and the pairs in contact."""
+
+from gearpair.teeth.finite_elements import FiniteElementBody, double_contact_stiffness, finite_element_bodies
+from gearpair.teeth.iso6336 import IsoStiffness, iso_stiffness
+from gearpair.teeth.meshing import MeshStiffness, mesh_stiffness
+from gearpair.teeth.spurpair import SpurGear, SpurPair
+from gearpair.teeth.tooth_profile import ToothProfile
+
+__all__ = [
+    "FiniteElementBody",
+    "IsoStiffness",
+    "MeshStiffness",
+    "SpurGear",
+    "SpurPair",
+    "ToothProfile",
+    "double_contact_stiffness",
+    "finite_element_bodies",
+    "iso_stiffness",
+    "mesh_stiffness",
+]
