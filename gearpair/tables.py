@@ -132,6 +132,7 @@ def motion_table(states: Mapping[str, SteadyState], parameter: str, digits: int 
 
     Examples
     --------
+    >>> from gearpair import steady_state
     >>> motion_table({"the baseline": steady_state(Oscillator())}, "damping_ratio")
     motion         zeta  X_min  X_max  impact state  largest multiplier
     -------------------------------------------------------------------
@@ -239,7 +240,8 @@ def disorder_table(exact: xr.Dataset, drawn: Mapping[str, xr.Dataset]) -> Table:
 
     Examples
     --------
-    >>> from gearpair import runge_kutta_sweep, sweep
+    >>> from gearpair import sweep
+    >>> from gearpair.methods import runge_kutta_sweep
     >>> osc, values = Oscillator(), [1.65, 1.7]
     >>> exact = sweep(osc, "mesh_frequency", values)
     >>> disorder_table(exact, {"RK45": runge_kutta_sweep(osc, "mesh_frequency", values)})
@@ -290,6 +292,7 @@ def certificate_table(pieces: Iterable[Segment]) -> Table:
 
     Examples
     --------
+    >>> from gearpair.methods import segments
     >>> len(certificate_table(segments(Oscillator(), 1.0, 0.0)).rows)
     3
     """

@@ -8,9 +8,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
+from gearpair import article as hy
 from gearpair import plotting
 from gearpair.article import published
-from gearpair.article import trials as hy
 
 
 @pytest.fixture(autouse=True)
@@ -20,7 +20,7 @@ def no_figures_left():
 
 
 def test_score_ranking_has_a_dot_for_every_reading():
-    ranked = hy.ranking(hy.trials([hy.PRINTED, hy.SWAPPED], hy.all_protocols(), 21))
+    ranked = hy.ranking(hy.run_trials([hy.PRINTED, hy.SWAPPED], hy.all_protocols(), 21))
     ax = plotting.score_ranking(ranked, {"swapped": hy.SWAPPED})
     np.testing.assert_allclose(ax.lines[0].get_ydata(), [entry.mean for entry in ranked])
     np.testing.assert_allclose(ax.lines[1].get_ydata(), [entry.best.total for entry in ranked])

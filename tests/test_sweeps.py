@@ -5,6 +5,7 @@ import pytest
 
 import gearpair as gp
 from gearpair import _cores
+from gearpair.motion import settling
 
 BASELINE = gp.Oscillator()
 QUICK = {"n_transient": 300, "n_exponent": 200}

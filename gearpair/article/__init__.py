@@ -31,8 +31,8 @@ from gearpair.article.trials import (
     all_protocols,
     periods,
     ranking,
+    run_trials,
     runge_kutta_trials,
-    trials,
     worth,
 )
 from gearpair.article.verdicts import Verdict, judge, judge_number, verdict_table
@@ -78,7 +78,7 @@ __all__ = [
     "score",
     "start_items",
     "transient_items",
-    "trials",
+    "run_trials",
     "verdict_table",
     "worth",
 ]

@@ -88,6 +88,7 @@ def reached(
 
     Examples
     --------
+    >>> from gearpair.article import SWAPPED
     >>> reached([SWAPPED], "damping_ratio", 5)[0].within("D5")
     1.0
     """

@@ -254,7 +254,8 @@ def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:
 
     Examples
     --------
-    >>> from gearpair import runge_kutta_sweep, sweep
+    >>> from gearpair import sweep
+    >>> from gearpair.methods import runge_kutta_sweep
     >>> osc, values = Oscillator(), [1.65, 1.7]
     >>> exact = sweep(osc, "mesh_frequency", values)
     >>> numerical_chaos(exact, runge_kutta_sweep(osc, "mesh_frequency", values)).tolist()

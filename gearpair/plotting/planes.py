@@ -11,11 +11,11 @@ from matplotlib.colors import ListedColormap, to_rgb
 from matplotlib.patches import Patch
 
 from gearpair.motion.impacts import ImpactState
-from gearpair.plotting.diagrams import shade_backlash
-from gearpair.plotting.style import LABELS, add_motion_legend, legend_name, motion_colour, new_axes
 from gearpair.motion.initial_conditions import attractor_names
 from gearpair.motion.names import IMPACT_NAMES, motion_name, motion_names
 from gearpair.motion.steady import SteadyState
+from gearpair.plotting.diagrams import shade_backlash
+from gearpair.plotting.style import LABELS, add_motion_legend, legend_name, motion_colour, new_axes
 
 # The harsher the darker.
 IMPACT_COLOURS: Mapping[str, str] = {
