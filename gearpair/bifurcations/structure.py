@@ -31,6 +31,13 @@ def coexistence(
     list of (float, float, tuple of str)
         Start, end, and the stable orbits there, such as ``("period 1 double", "period 2 single_drive")``.
         Orbits of one period and impact state on one branch count once each.
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, continue_orbit, periodic_orbit
+    >>> branch = continue_orbit(periodic_orbit(Oscillator(), 0.34, -0.25, 2), "mesh_frequency", 0.7, 0.77)
+    >>> [(round(low, 4), round(high, 4), len(motions)) for low, high, motions in coexistence([branch], 0.7, 0.77)]
+    [(0.7, 0.766, 1), (0.766, 0.77, 0)]
     """
     pieces = [piece for branch in branches for piece in _stable_pieces(branch) if piece[1] - piece[0] >= shortest]
     # A branch that ends close to a bifurcation ends at it.
