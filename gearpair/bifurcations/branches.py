@@ -40,6 +40,7 @@ class Branch:
     multipliers : ndarray of complex, shape (n, 2)
         The largest modulus first.
     stable : ndarray of bool, shape (n,)
+        Where the branch merges with a shorter orbit, a multiplier is 1: there it is as the orbit next to it.
     x_min, x_max : ndarray of float, shape (n,)
     contacts : ndarray of int, shape (n, 2)
         Contacts per cycle, drive and coast side.
@@ -159,7 +160,7 @@ def continue_orbit(
         values=np.array([problem.values(step.u)[0] for step in steps]),
         points=np.array([c.points for c in cycles]),
         multipliers=multipliers,
-        stable=np.abs(multipliers[:, 0]) < 1.0,
+        stable=_stable(multipliers, ends),
         x_min=np.array([c.x_min for c in cycles]),
         x_max=np.array([c.x_max for c in cycles]),
         contacts=np.array([c.contacts for c in cycles]),
@@ -167,6 +168,16 @@ def continue_orbit(
         bifurcations=found,
         ends=ends,
     )
+
+
+def _stable(multipliers: NDArray[np.complex128], ends: tuple[End, End]) -> NDArray[np.bool_]:
+    """Which orbits of a branch are stable; rounding does not decide where it merges."""
+    stable = np.abs(multipliers[:, 0]) < 1.0
+    if ends[0] == End.MERGED:
+        stable[0] = stable[1]
+    if ends[1] == End.MERGED:
+        stable[-1] = stable[-2]
+    return stable
 
 
 def largest_x(osc: Oscillator) -> float:

@@ -118,10 +118,15 @@ def _turns(branch: Branch, start: int, i: int) -> bool:
 
 
 def _edge(branch: Branch, i: int, j: int) -> float:
-    """The bifurcation's value between orbits `i` and `j` of a branch, or the branch's own end."""
+    """The bifurcation's value between orbits `i` and `j` of a branch, or the branch's own end.
+
+    Stability changes at a fold or a flip, the impact state at a grazing, and one step may pass both.
+    """
     if i < 0 or j >= len(branch.values):
         return float(branch.values[max(i, 0) if j >= len(branch.values) else j])
     low, high = sorted(branch.values[[i, j]].tolist())
     margin = high - low
-    near = [b.value for b in branch.bifurcations if low - margin <= b.value <= high + margin]
-    return min(near, key=lambda value: abs(value - 0.5 * (low + high))) if near else 0.5 * (low + high)
+    near = [b for b in branch.bifurcations if low - margin <= b.value <= high + margin]
+    changed = branch.stable[i] != branch.stable[j]
+    values = [b.value for b in near if (b.kind != "grazing") == changed] or [b.value for b in near]
+    return min(values, key=lambda value: abs(value - 0.5 * (low + high)), default=0.5 * (low + high))
