@@ -31,13 +31,6 @@ def coexistence(
     list of (float, float, tuple of str)
         Start, end, and the stable orbits there, such as ``("period 1 double", "period 2 single_drive")``.
         Orbits of one period and impact state on one branch count once each.
-
-    Examples
-    --------
-    >>> from gearpair import Oscillator, continue_orbit, periodic_orbit
-    >>> branch = continue_orbit(periodic_orbit(Oscillator(), 0.34, -0.25, 2), "mesh_frequency", 0.7, 0.77)
-    >>> [(round(low, 4), round(high, 4), len(motions)) for low, high, motions in coexistence([branch], 0.7, 0.77)]
-    [(0.7, 0.766, 1), (0.766, 0.77, 0)]
     """
     pieces = [piece for branch in branches for piece in _stable_pieces(branch) if piece[1] - piece[0] >= shortest]
     # A branch that ends close to a bifurcation ends at it.
@@ -118,15 +111,14 @@ def _turns(branch: Branch, start: int, i: int) -> bool:
 
 
 def _edge(branch: Branch, i: int, j: int) -> float:
-    """The bifurcation's value between orbits `i` and `j` of a branch, or the branch's own end.
-
-    Stability changes at a fold or a flip, the impact state at a grazing, and one step may pass both.
-    """
+    """The bifurcation's value between orbits `i` and `j` of a branch, or the branch's own end."""
     if i < 0 or j >= len(branch.values):
         return float(branch.values[max(i, 0) if j >= len(branch.values) else j])
     low, high = sorted(branch.values[[i, j]].tolist())
     margin = high - low
-    near = [b for b in branch.bifurcations if low - margin <= b.value <= high + margin]
-    changed = branch.stable[i] != branch.stable[j]
-    values = [b.value for b in near if (b.kind != "grazing") == changed] or [b.value for b in near]
-    return min(values, key=lambda value: abs(value - 0.5 * (low + high)), default=0.5 * (low + high))
+    near = [b.value for b in branch.bifurcations if low - margin <= b.value <= high + margin]
+    if near:
+        return min(near, key=lambda value: abs(value - 0.5 * (low + high)))
+    # A branch that merges with a shorter orbit ends on the flip, at a multiplier of one to rounding.
+    ends = [k for k in (i, j) if k in (0, len(branch.values) - 1)]
+    return float(branch.values[ends[0]]) if ends else 0.5 * (low + high)
