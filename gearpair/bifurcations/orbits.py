@@ -15,6 +15,7 @@ from gearpair._flow.cycle import map_at, newton_starts, turns_at
 from gearpair._flow.march import OK, march
 from gearpair._flow.tangent import newton
 from gearpair.motion.impacts import ImpactState, impact_state
+from gearpair.motion.names import Motion, periodic
 from gearpair.motion.stability import multipliers_of
 from gearpair.motion.trajectories import check_start, check_starts
 from gearpair.oscillator import Oscillator
@@ -91,6 +92,11 @@ class PeriodicOrbit:
     def impact_state(self) -> ImpactState:
         """The impact state of the cycle."""
         return impact_state(self.x_min, self.x_max)
+
+    @property
+    def motion(self) -> Motion:
+        """Its period and impact state as one."""
+        return periodic(self.period, self.impact_state)
 
 
 def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> PeriodicOrbit:
