@@ -14,7 +14,7 @@ from gearpair.article.comparison import (
     drawn_boundary,
     nearest,
 )
-from gearpair.article.existence import Reached, reached
+from gearpair.article.existence import STARTS, Reached, reached
 from gearpair.article.items import (
     boundary_items,
     chaos_items,
@@ -48,6 +48,7 @@ __all__ = [
     "Protocol",
     "Ranked",
     "Reached",
+    "STARTS",
     "SWAPPED",
     "Score",
     "Trial",
