@@ -115,14 +115,13 @@ def _turns(branch: Branch, start: int, i: int) -> bool:
 
 def _edge(branch: Branch, i: int, j: int) -> float:
     """The bifurcation's value between orbits `i` and `j` of a branch, or the branch's own end."""
-    last = len(branch.values) - 1
-    if i < 0 or j > last:
-        return float(branch.values[max(i, 0) if j > last else j])
+    if i < 0 or j >= len(branch.values):
+        return float(branch.values[max(i, 0) if j >= len(branch.values) else j])
     low, high = sorted(branch.values[[i, j]].tolist())
     margin = high - low
     near = [b.value for b in branch.bifurcations if low - margin <= b.value <= high + margin]
     if near:
         return min(near, key=lambda value: abs(value - 0.5 * (low + high)))
-    # A branch that merges with another has multiplier 1 in its last orbit: which side of it is a matter of rounding.
-    ends = [float(branch.values[end]) for end in (i, j) if end in (0, last)]
-    return ends[0] if len(ends) == 1 else 0.5 * (low + high)
+    # A branch that merges with a shorter orbit ends on the flip, at a multiplier of one to rounding.
+    ends = [k for k in (i, j) if k in (0, len(branch.values) - 1)]
+    return float(branch.values[ends[0]]) if ends else 0.5 * (low + high)
