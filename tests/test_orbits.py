@@ -128,7 +128,7 @@ def test_a_search_that_fails_says_so_and_describes_no_orbit():
     orbit = gp.periodic_orbit(BASELINE.replace(mesh_frequency=1.219), 300.0, 100.0, 7)
     assert not orbit.converged and orbit.status == "diverged" and "find_orbits" in orbit.status.remedy
     described = (orbit.stable, orbit.impact_state, orbit.multipliers, orbit.monodromy, orbit.x_min, orbit.x_max)
-    assert described == (None,) * 6 and orbit.contacts is None
+    assert described == (None,) * 6 and orbit.contacts is None and orbit.motion is None
     assert orbit.points.shape == (1, 2) and orbit.residual > 1e-3 and orbit.period == 7
     assert str(orbit).startswith("no orbit of period 7: Newton's method did not converge")
     with pytest.raises(ValueError, match="must have converged, got status 'diverged'"):

@@ -1,12 +1,11 @@
 """Ranges of stability and of coexistence from branches made up for the purpose, and tables of them."""
 
-import re
-
 import numpy as np
 import pytest
 
 import gearpair as gp
 from gearpair.bifurcations import Branch, End, coexistence, stable_ranges
+from gearpair.motion import periodic
 from tests.test_orbits import BASELINE
 
 RATTLE, CLATTER = (0.2, 1.8), (-1.5, 1.8)  # extremes of X of a single-sided and of a double-sided motion
@@ -42,8 +41,8 @@ def branch_of(values, stable, period=1, extremes=RATTLE, located=()):
 
 
 def spans(ranges):
-    """(lower, upper, period) of each range, whatever type names the motion."""
-    return [(run.lower, run.upper, int(re.search(r"\d+", str(run.motion))[0])) for run in ranges]
+    """(lower, upper, period) of each range."""
+    return [(run.lower, run.upper, run.motion.period) for run in ranges]
 
 
 def counted(ranges):
@@ -78,9 +77,8 @@ def test_where_the_impact_state_changes_one_stable_range_goes_on_and_coexistence
         [1, 2, 3, 4], [1, 1, 1, 1], extremes=[RATTLE, RATTLE, CLATTER, CLATTER], located=[(1, made_up("grazing", 2.4))]
     )
     assert spans(stable_ranges([branch])) == [(1.0, 4.0, 1)]
-    ranges = coexistence([branch], 1.0, 4.0)
-    assert counted(ranges) == [(1.0, 2.4, 1), (2.4, 4.0, 1)]
-    assert ranges[0][2] != ranges[1][2]
+    rattle, clatter = (periodic(1, state) for state in (gp.ImpactState.SINGLE_DRIVE, gp.ImpactState.DOUBLE))
+    assert coexistence([branch], 1.0, 4.0) == [(1.0, 2.4, (rattle,)), (2.4, 4.0, (clatter,))]
 
 
 def test_a_branch_that_turns_back_has_two_ranges_at_a_time():
@@ -131,6 +129,19 @@ def test_a_range_that_stops_just_short_of_a_bifurcation_ends_there():
     assert counted(coexistence([branch, other], 1.0, 3.0)) == [(1.0, 2.0003, 1), (2.0003, 3.0, 0)]
     other = branch_of([1, 3], [0, 0], located=[(0, made_up("flip", 2.0005))])
     assert counted(coexistence([branch, other], 1.0, 3.0)) == [(1.0, 2.0, 1), (2.0, 3.0, 0)]
+
+
+def test_a_branch_is_stable_to_the_flip_that_it_grows_from():
+    """There a multiplier is 1, and rounding must not decide: the merged orbit is as stable as the one beside it."""
+    two = gp.continue_orbit(gp.periodic_orbit(BASELINE, 0.34, -0.25, 2), "mesh_frequency", 0.69, 0.78)
+    (flip,) = [b for b in two.bifurcations if b.kind == "flip"]
+    doubled = gp.bifurcations.doubled_orbit(flip)
+    for step in (0.02, 0.0177, 0.013, 0.011, 0.007):
+        branch = gp.continue_orbit(doubled, "mesh_frequency", 0.75, 0.79, largest_step=step)
+        assert sorted(branch.ends) == ["bound", "merged"] and branch.stable.all()
+        (run,) = stable_ranges([branch])
+        assert run.motion == periodic(4)
+        assert run.lower == pytest.approx(flip.value, abs=1e-9) and run.upper == 0.79
 
 
 def test_stable_ranges_do_not_depend_on_the_steps():

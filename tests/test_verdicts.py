@@ -89,19 +89,19 @@ def changes_at(*values, kind="fold", parameter="damping_ratio"):
     return [SimpleNamespace(kind=kind, parameter=parameter, value=value) for value in values]
 
 
-def test_nearness_to_the_stated_values_themselves_is_beyond_chance():
+def test_a_distance_of_zero_from_the_stated_values_is_beyond_chance():
     """Changes exactly at the published boundaries: distance 0, which no random table has."""
     stated = [b.value for b in published.DAMPING_BOUNDARIES]
-    assert hy.nearness("damping_ratio", changes_at(*stated)) == (0.0, 0.0)
+    assert hy.distance_from_bifurcations("damping_ratio", changes_at(*stated)) == (0.0, 0.0)
     off = changes_at(*stated, kind="grazing") + changes_at(0.5 * sum(stated)) + changes_at(*stated, parameter="b")
-    distance, _ = hy.nearness("damping_ratio", off)  # grazings and other parameters do not count
+    distance, _ = hy.distance_from_bifurcations("damping_ratio", off)  # grazings and other parameters do not count
     assert distance == pytest.approx(0.5 * (stated[1] - stated[0]))
 
 
-def test_nearness_by_chance_is_the_area_it_must_be(swapped_changes):
+def test_the_chance_of_a_distance_is_the_area_it_must_be(swapped_changes):
     """One change at c, two boundaries: the share of the square of random ones with (|u - c| + |v - c|) / 2 <= d."""
     (fold,) = [b for b in swapped_changes if b.parameter == "damping_ratio" and b.kind == "fold"]
-    distance, chance = hy.nearness("damping_ratio", [fold], n=20_000)
+    distance, chance = hy.distance_from_bifurcations("damping_ratio", [fold], n=20_000)
     assert distance == pytest.approx(np.mean([abs(b.value - fold.value) for b in published.DAMPING_BOUNDARIES]))
     away = np.abs((np.arange(2000) + 0.5) / 2000 * 0.025 - fold.value)
     area = np.mean(0.5 * (away[:, None] + away) <= distance)
