@@ -92,7 +92,7 @@ def test_a_branch_that_turns_back_between_stable_orbits_is_counted_twice():
     """Where a step passes a fold and a flip the orbits on both sides are stable: two ranges that meet at the fold."""
     events = [(2, made_up("fold", 3.2)), (2, made_up("flip", 3.1))]
     branch = branch_of([1, 2, 3, 2, 1], [1, 1, 1, 1, 1], located=events)
-    assert counted(coexistence([branch], 1.0, 4.0)) == [(1.0, 3.1, 2), (3.1, 3.2, 1), (3.2, 4.0, 0)]
+    assert counted(coexistence([branch], 1.0, 4.0)) == [(1.0, 3.2, 2), (3.2, 4.0, 0)]
     unlocated = coexistence([branch_of([1, 2, 3, 2, 1], [1, 1, 1, 1, 1])], 1.0, 4.0)
     assert counted(unlocated) == [(1.0, 2.5, 2), (2.5, 3.0, 1), (3.0, 4.0, 0)]
 
