@@ -8,19 +8,6 @@ gearpair.define("measures", [], function () {
     double: "double-sided impact",
     never_in_contact: "never in contact",
   };
-  // Okabe and Ito's hues, as in gearpair/plotting/style.py.
-  const MOTION_COLOURS = {
-    "period 1": "#0072B2",
-    "period 2": "#E69F00",
-    "period 3": "#009E73",
-    "period 4": "#D55E00",
-    "period 6": "#CC79A7",
-    "period 8": "#56B4E9",
-    "other periods": "#8A6D3B",
-    chaos: "#3A3A3A",
-    unsettled: "#A9A9A9",
-    escaped: "#E5E5E5",
-  };
 
   // The impact state from the extremes of X, as in gearpair.impact_state.
   function impactState(low, high) {
@@ -39,12 +26,6 @@ gearpair.define("measures", [], function () {
   function motionName(status, period) {
     if (status === "periodic") return `period ${period}`;
     return status === "aperiodic" ? "chaos" : status;
-  }
-
-  // The name under which a motion has its colour.
-  function colourName(name) {
-    if (name in MOTION_COLOURS) return name;
-    return name.startsWith("period") ? "other periods" : "unsettled";
   }
 
   // Eigenvalues [re, im] of [m00, m01, m10, m11], the largest modulus first (then the larger imaginary part).
@@ -102,5 +83,5 @@ gearpair.define("measures", [], function () {
     }
   }
 
-  return { IMPACT_NAMES, MOTION_COLOURS, impactState, loadFactor, motionName, colourName, multipliers, spectrum };
+  return { IMPACT_NAMES, impactState, loadFactor, motionName, multipliers, spectrum };
 });

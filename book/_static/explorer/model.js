@@ -1,0 +1,85 @@
+// The motion that the page shows: settled in pieces of a few milliseconds, then recorded.
+gearpair.define("model", ["cells", "flow", "settle", "observe", "measures"], function (tables, flow, settle, observe, measures) {
+  const SHOWN = 8; // mesh periods of a time history, about
+  const SAMPLES = 2048; // of a recorded motion
+  const [SPECTRUM_PERIODS, SPECTRUM_SAMPLES] = [64, 8192]; // of a motion that does not repeat
+  const SETTINGS = { samples: 1200 };
+
+  class Model {
+    // Take a new gear pair and start; nothing is computed yet.
+    reset(state) {
+      this.state = state;
+      this.cells = tables.buildCells(state);
+      this.motion = flow.startAt(this.cells, state.x, state.v);
+      this.work = settle.settling(this.cells, this.motion, SETTINGS);
+      this.settled = null;
+    }
+
+    // Go on settling for `budget` milliseconds; whether that has come to its end.
+    advance(budget) {
+      const end = performance.now() + budget;
+      while (!this.settled) {
+        const { done, value } = this.work.next();
+        if (done) this.settled = value;
+        else if (performance.now() > end) return false;
+      }
+      return true;
+    }
+
+    // The motion as it is now: { status, name, points, recorded, spectrum, ... }; what did not stay bounded has no record.
+    describe() {
+      const { cells, settled } = this;
+      if (!settled) return this.passing();
+      const { status, period, points } = settled;
+      const name = measures.motionName(status, period);
+      if (!points.length) return { status, name, points, recorded: null };
+      const first = flow.startAt(cells, points[0].x, points[0].v);
+      const periods = period ? period * Math.max(1, Math.round(SHOWN / period)) : SHOWN;
+      this.player = first;
+      const recorded = observe.record(cells, first, periods, SAMPLES);
+      return {
+        status,
+        name,
+        period,
+        points,
+        recorded,
+        spectrum: this.spectrum(period, points[0]),
+        lines: period !== null,
+        low: settled.low,
+        high: settled.high,
+        impact: measures.impactState(settled.low, settled.high),
+        loadFactor: measures.loadFactor(settled.force, cells.force),
+        multipliers: settled.monodromy && measures.multipliers(settled.monodromy),
+        exponent: settled.exponents[0],
+        error: settled.error,
+      };
+    }
+
+    // A motion that has not settled yet, from where it has got to.
+    passing() {
+      const start = { ...this.motion };
+      const recorded = observe.record(this.cells, start, SHOWN, SAMPLES);
+      const points = Array.from({ length: SHOWN }, (_, i) => ({
+        x: recorded.x[(i * SAMPLES) / SHOWN],
+        v: recorded.v[(i * SAMPLES) / SHOWN],
+      }));
+      const status = recorded.status === flow.OK ? "settling" : "escaped";
+      const spectrum = measures.spectrum(recorded.x, SHOWN, true);
+      return { status, name: status, points, recorded: status === "escaped" ? null : recorded, spectrum, lines: false };
+    }
+
+    spectrum(period, { x, v }) {
+      const periods = period ?? SPECTRUM_PERIODS;
+      const count = period ? SAMPLES : SPECTRUM_SAMPLES;
+      const { x: samples } = observe.record(this.cells, flow.startAt(this.cells, x, v), periods, count);
+      return measures.spectrum(samples, periods, period === null);
+    }
+
+    // The next stretch of a motion that does not repeat.
+    next() {
+      return observe.record(this.cells, this.player, SHOWN, SAMPLES);
+    }
+  }
+
+  return { Model };
+});
