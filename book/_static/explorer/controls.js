@@ -57,9 +57,11 @@ gearpair.define("controls", ["state"], function ({ NUMBERS, readValue, complaint
 
   function show(form, fields, state) {
     for (const [name, { field, range }] of Object.entries(fields)) {
+      if (range.shown === state[name]) continue;
+      range.shown = state[name];
       range.value = state[name];
       range.style.setProperty("--filled", `${(100 * (range.valueAsNumber - range.min)) / (range.max - range.min)}%`);
-      if (document.activeElement !== field || Number(field.value) !== state[name]) field.value = Number(state[name].toPrecision(6));
+      field.value = Number(state[name].toPrecision(6));
     }
     for (const radio of form.querySelectorAll("[name=reading]")) radio.checked = radio.value === state.reading;
   }

@@ -104,9 +104,10 @@ gearpair.define(
       }
 
       redraw() {
+        plotting.forgetSizes();
         this.theme = plotting.readTheme(this.root);
-        if (!this.state) return;
-        if (this.shown) this.draw();
+        if (!this.shown) return;
+        this.draw();
         this.diagram.draw(this.theme);
       }
 
@@ -133,7 +134,9 @@ gearpair.define(
         if (!ready && now - this.drawnAt < PASSING) return;
         this.drawnAt = now;
         this.shown = this.model.describe();
+        this.theme ??= plotting.readTheme(this.root);
         this.draw();
+        if (!this.diagram.plot) this.diagram.draw(this.theme);
         this.showReadout(this.shown);
       }
 
@@ -147,14 +150,12 @@ gearpair.define(
           overlay.setAttribute(`aria-value${name}`, String(number));
         }
         overlay.setAttribute("aria-valuetext", `${entry.label} ${value}`);
-        if (!this.diagram.plot) this.redraw();
       }
 
       draw() {
         const { shown, theme, state } = this;
         const colour = theme.motion[plotting.colourName(shown.name)];
-        this.root.style.setProperty("--motion", colour);
-        this.root.dataset.status = shown.status;
+        if (colour !== this.colour) this.root.style.setProperty("--motion", (this.colour = colour));
         this.diagram.mark({ value: state[state.diagram], points: shown.points, colour });
         if (!shown.recorded) return;
         const start = { x: state.x, v: state.v };

@@ -3,9 +3,9 @@ gearpair.define("measures", [], function () {
   const IMPACT_NAMES = {
     none_drive: "no impact",
     none_coast: "no impact, on the coast side",
-    single_drive: "single-sided impact",
-    single_coast: "single-sided impact on the coast side",
-    double: "double-sided impact",
+    single_drive: "single-sided",
+    single_coast: "single-sided, on the coast side",
+    double: "double-sided",
     never_in_contact: "never in contact",
   };
 

@@ -50,6 +50,7 @@ gearpair.define(
       }
 
       refresh() {
+        plotting.forgetSizes();
         const theme = plotting.readTheme(this.root);
         for (const pair of this.pairs) {
           pair.theme = theme;

@@ -51,7 +51,7 @@ gearpair.define("readout", ["measures", "plot"], function ({ IMPACT_NAMES }, { s
   function sentence(motion, shown) {
     if (motion.low === undefined) return `${motion.name}. ${MEANINGS[motion.status]}`;
     const stability = motion.multipliers ? shown.modulus : `largest exponent ${shown.exponent} ${shown.error}`;
-    return `${motion.name}, ${shown.impact}, load factor ${shown.load}, X from ${shown.range}, ${stability}.`;
+    return `${motion.name}, impacts: ${shown.impact}, load factor ${shown.load}, X from ${shown.range}, ${stability}.`;
   }
 
   return { build, values, MEANINGS };

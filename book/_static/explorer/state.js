@@ -11,10 +11,10 @@ gearpair.define("state", [], function () {
     number("error_amplitude", "F<sub>ah</sub>", "Error amplitude", 0.2, 0, 1, 0.005),
     number("error_phase", "φ", "Error phase (rad)", 0, -3.14, 3.14, 0.01, -6.3, 6.3),
     number("contact_ratio", "ε", "Contact ratio", 1.68, 1.05, 1.95, 0.005, 1.01, 1.99),
-    number("a", "a", "Stiffness added in double contact", 0.116, 0, 1, 0.002),
-    number("b", "b", "Stiffness missing in single contact", 0.414, 0, 0.9, 0.002),
-    number("x", "X<sub>0</sub>", "Start: displacement", 1, -6, 6, 0.01, -1000, 1000),
-    number("v", "V<sub>0</sub>", "Start: velocity", 0, -6, 6, 0.01, -1000, 1000),
+    number("a", "a", "Added in double contact", 0.116, 0, 1, 0.002),
+    number("b", "b", "Missing in single contact", 0.414, 0, 0.9, 0.002),
+    number("x", "X<sub>0</sub>", "Displacement", 1, -6, 6, 0.01, -1000, 1000),
+    number("v", "V<sub>0</sub>", "Velocity", 0, -6, 6, 0.01, -1000, 1000),
   ];
   const CHOICES = [
     { name: "reading", value: "printed", choices: ["printed", "swapped"] },

@@ -1,6 +1,6 @@
 // The bifurcation diagram as a picker: X on the section over one parameter, drawn as the worker finds it.
 gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axes, inside, padded, colourName }, worker) {
-  const COUNT = 300; // values of the parameter, each visited rising and falling
+  const COUNT = 400; // values of the parameter, each visited rising and falling
   const WAIT = 250; // milliseconds without a change before the worker starts
   const REACH = 16; // pixels from a click to the point that it means
 

@@ -7,7 +7,7 @@ gearpair.define("plot", [], function () {
     const style = getComputedStyle(element);
     const colour = (name) => style.getPropertyValue(`--gp-${name}`).trim();
     const motion = Object.fromEntries(MOTIONS.map((name) => [name, colour(name.replaceAll(" ", "-"))]));
-    const names = ["ink", "muted", "line", "backlash", "boundary", "paper", "steel", "steel-edge", "drive", "coast"];
+    const names = ["ink", "muted", "line", "backlash", "boundary", "paper", "steel", "steel2", "steel-edge", "drive", "coast"];
     return { ...Object.fromEntries(names.map((name) => [name, colour(name)])), motion, font: style.fontFamily };
   }
 
@@ -17,10 +17,18 @@ gearpair.define("plot", [], function () {
     return name.startsWith("period") ? "other periods" : "unsettled";
   }
 
+  // Sizes of canvases in CSS pixels. To ask for one makes the browser lay out the page, too slow for every frame.
+  let sizes = new WeakMap();
+
+  function forgetSizes() {
+    sizes = new WeakMap();
+  }
+
   // A context in CSS pixels, { ctx, width, height }, cleared and as sharp as the screen.
   function prepare(canvas) {
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
-    const { clientWidth: width, clientHeight: height } = canvas;
+    if (!sizes.has(canvas)) sizes.set(canvas, { width: canvas.clientWidth, height: canvas.clientHeight });
+    const { width, height } = sizes.get(canvas);
     const ctx = canvas.getContext("2d");
     if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
       canvas.width = Math.round(width * ratio);
@@ -44,7 +52,7 @@ gearpair.define("plot", [], function () {
   // Axes around the data of `range` { left, right, bottom, top }: draws them and returns the maps of data to pixels.
   // `yTicks` are [value, text] where they are not plain numbers.
   function axes({ ctx, width, height }, range, theme, { xLabel, yLabel, yTicks }) {
-    const box = { left: 40, right: width - 8, top: 8, bottom: height - 36 };
+    const box = { left: 46, right: width - 8, top: 8, bottom: height - 36 };
     const x = (value) => box.left + ((value - range.left) / (range.right - range.left)) * (box.right - box.left);
     const y = (value) => box.bottom - ((value - range.bottom) / (range.top - range.bottom)) * (box.bottom - box.top);
     ctx.font = `11.5px ${theme.font}`;
@@ -74,7 +82,7 @@ gearpair.define("plot", [], function () {
     ctx.textBaseline = "bottom";
     ctx.fillText(xLabel, (box.left + box.right) / 2, height - 1);
     ctx.save();
-    ctx.translate(11, (box.top + box.bottom) / 2);
+    ctx.translate(10, (box.top + box.bottom) / 2);
     ctx.rotate(-Math.PI / 2);
     ctx.textBaseline = "middle";
     ctx.fillText(yLabel, 0, 0);
@@ -105,5 +113,5 @@ gearpair.define("plot", [], function () {
     return [Math.floor((low - air) / step) * step, Math.ceil((high + air) / step) * step];
   }
 
-  return { MOTIONS, readTheme, colourName, prepare, axes, inside, padded, sign };
+  return { MOTIONS, readTheme, colourName, prepare, forgetSizes, axes, inside, padded, sign };
 });

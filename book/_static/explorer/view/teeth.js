@@ -7,83 +7,68 @@ gearpair.define("teeth", ["plot"], function ({ prepare }) {
   // is drawn too small, and the less the further, so that every motion fits the picture.
   function place(x) {
     const beyond = Math.max(Math.abs(x) - 1, 0);
-    const give = 0.8 * Math.tanh(beyond / 2.5);
-    return Math.sign(x) * (Math.min(Math.abs(x), 1) + give);
+    return Math.sign(x) * (Math.min(Math.abs(x), 1) + 0.5 * Math.tanh(beyond / 2));
   }
 
-  // A flank from the root (s = -1) over the pitch line (s = 0) to the tip (s = 1) of a tooth, bulging a little.
-  function flank(path, x, y, height, side, bend, down) {
-    for (let i = 0; i <= 12; i++) {
-      const s = down ? 1 - i / 6 : i / 6 - 1;
-      const root = (s + 1) / 2;
-      path.push([x - side * (LEAN * s * height + 0.05 * height * s * s) + bend * root * root * 4 * 0.7, y(s)]);
-    }
-  }
-
-  function trace(ctx, points) {
+  // The outline of a rack whose teeth point up (way 1) or down (way -1), the teeth shifted by `shift` and bent by `bend`
+  // at the pitch line; over the whole width of the picture.
+  function rack(ctx, { cx, cy, half, tall, fillet, pitch, width, edge }, first, way, shift, bend) {
+    const y = (s) => cy - way * s * tall; // s: -1 at the root of a flank, 0 on the pitch line, 1 at its tip
+    const root = cy + way * (tall + fillet);
+    const flank = (centre, side, s) => {
+      const thick = half - LEAN * s * tall - 0.07 * tall * s * s;
+      return centre + side * thick + bend * ((s + 1) / 2) ** 1.3 * 2 ** 1.3;
+    };
     ctx.beginPath();
-    points.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
+    ctx.moveTo(-9, edge);
+    for (let k = -2; k <= 2; k++) {
+      const centre = cx + first + k * pitch + shift;
+      ctx.lineTo(flank(centre, -1, -1) - fillet, root);
+      ctx.quadraticCurveTo(flank(centre, -1, -1), root, flank(centre, -1, -1), y(-1));
+      for (let i = 1; i <= 10; i++) ctx.lineTo(flank(centre, -1, i / 5.2 - 1), y(i / 5.2 - 1));
+      ctx.quadraticCurveTo(flank(centre, -1, 1), y(1), flank(centre, -1, 1) + 4, y(1));
+      ctx.lineTo(flank(centre, 1, 1) - 4, y(1));
+      ctx.quadraticCurveTo(flank(centre, 1, 1), y(1), flank(centre, 1, 10 / 5.2 - 1), y(10 / 5.2 - 1));
+      for (let i = 9; i >= 0; i--) ctx.lineTo(flank(centre, 1, i / 5.2 - 1), y(i / 5.2 - 1));
+      ctx.quadraticCurveTo(flank(centre, 1, -1), root, flank(centre, 1, -1) + fillet, root);
+    }
+    ctx.lineTo(width + 9, root);
+    ctx.lineTo(width + 9, edge);
     ctx.closePath();
   }
 
   // `now`: X, the mesh force over the mean force, and the last impact { side, age } in seconds (or null).
   function drawTeeth(canvas, theme, now, labels = true) {
-    const paper = prepare(canvas);
-    const { ctx, width, height } = paper;
-    const scale = Math.min(width / 340, height / 250);
-    const cx = width / 2;
-    const cy = height * (labels ? 0.44 : 0.5);
-    const tall = 52 * scale; // half the height of a flank
-    const half = 34 * scale; // half the thickness of a tooth at the pitch line
-    const play = 20 * scale; // half the play
+    const { ctx, width, height } = prepare(canvas);
+    const scale = Math.min(width / 320, height / 240);
+    const half = 31 * scale; // half the thickness of a tooth on the pitch line
+    const play = 22 * scale; // half the play
+    const shape = {
+      cx: width / 2,
+      cy: height * (labels ? 0.43 : 0.5),
+      half,
+      tall: 50 * scale, // half the height of a flank
+      fillet: 13 * scale,
+      pitch: 4 * half + 2 * play,
+      width,
+    };
     const at = place(now.x);
-    const shift = play * at;
-    const over = play * (Math.abs(at) > 1 ? at - Math.sign(at) : 0);
-    const edge = 1.6;
-
-    // The space: a tooth on either side, the touched one bent.
-    const lower = (s) => cy - s * tall;
-    for (const side of [-1, 1]) {
-      const touched = over !== 0 && Math.sign(over) === side;
-      const bend = touched ? over : 0;
-      const near = cx + side * (half + play);
-      const far = cx + side * (3 * half + play + 6 * scale);
-      const points = [[near - side * (30 * scale), height + 4]];
-      points.push([near - side * 12 * scale + side * LEAN * tall, lower(-1) + 10 * scale]);
-      flank(points, near, lower, tall, -side, bend, false);
-      const outer = [];
-      flank(outer, far, lower, tall, side, bend, true);
-      points.push(...outer, [far + side * (26 * scale), lower(-1) + 10 * scale], [far + side * (60 * scale), height + 4]);
-      trace(ctx, points);
-      ctx.fillStyle = theme.steel;
-      ctx.strokeStyle = theme["steel-edge"];
-      ctx.lineWidth = edge;
-      ctx.lineJoin = "round";
-      ctx.fill();
-      ctx.stroke();
-    }
-    // The root between them, over the two outlines.
+    const over = Math.abs(at) > 1 ? at - Math.sign(at) : 0;
+    ctx.lineWidth = 1.6;
+    ctx.lineJoin = "round";
+    rack(ctx, { ...shape, edge: height + 9 }, 2 * half + play, 1, 0, play * over);
     ctx.fillStyle = theme.steel;
-    ctx.fillRect(cx - half - play - 22 * scale, lower(-1) + 11 * scale, 2 * (half + play + 22 * scale), height);
-
-    // The tooth in the space.
-    const upper = (s) => cy + s * tall;
-    const mine = [[cx + shift - 80 * scale, -4], [cx + shift - half - LEAN * tall - 12 * scale, upper(-1) - 12 * scale]];
-    flank(mine, cx + shift - half, upper, tall, -1, 0, false);
-    flank(mine, cx + shift + half, upper, tall, 1, 0, true);
-    mine.push([cx + shift + half + LEAN * tall + 12 * scale, upper(-1) - 12 * scale], [cx + shift + 80 * scale, -4]);
-    trace(ctx, mine);
-    ctx.fillStyle = theme.paper;
+    ctx.strokeStyle = theme["steel-edge"];
     ctx.fill();
-    ctx.globalAlpha = 0.22;
-    ctx.fillStyle = theme.ink;
-    ctx.fill();
-    ctx.globalAlpha = 1;
-    ctx.strokeStyle = theme.ink;
     ctx.stroke();
-
-    glow(ctx, theme, now, { cx, cy, half, play, shift, scale });
-    if (labels) gauge(ctx, theme, now.x, { cx, play, at, width, height, scale });
+    rack(ctx, { ...shape, edge: -9 }, 0, -1, play * at, 0);
+    ctx.fillStyle = theme.steel2;
+    ctx.strokeStyle = theme.ink;
+    ctx.fill();
+    ctx.stroke();
+    const drawn = { ...shape, play, shift: play * at, at, height, scale };
+    glow(ctx, theme, now, drawn);
+    if (labels) gauge(ctx, theme, now.x, drawn);
   }
 
   // Contact: a spot that grows with the mesh force, and a ring that spreads from each impact.
@@ -118,12 +103,12 @@ gearpair.define("teeth", ["plot"], function ({ prepare }) {
 
   // Where X is: a pointer over the play from -1 to 1.
   function gauge(ctx, theme, x, { cx, play, at, height, scale }) {
-    const unit = 2.2 * play;
+    const unit = 1.6 * play;
     const y = height - 26;
     ctx.fillStyle = theme.paper;
     ctx.globalAlpha = 0.82;
     ctx.beginPath();
-    ctx.roundRect(cx - 2 * unit, y - 14, 4 * unit, 38, 8);
+    ctx.roundRect(cx - 2.2 * unit, y - 14, 4.4 * unit, 38, 8);
     ctx.fill();
     ctx.globalAlpha = 1;
     ctx.fillStyle = theme.backlash;
