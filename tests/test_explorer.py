@@ -227,6 +227,24 @@ def test_a_point_of_the_diagram_shows_its_motion(page):
     assert shown(browser, "range") == f"{truth.x_min:.3f} to {truth.x_max:.3f}"
 
 
+def test_a_motion_that_both_sweeps_miss_adds_its_branch(page):
+    """The double-sided period 1, which has half of all starts at the baseline, hangs together with neither sweep."""
+    browser = page("#x=-2.3&v=1.5")
+    (orbit,) = gp.steady_state(gp.Oscillator(), -2.3, 1.5).points
+    browser.wait_for(f"""{EXPLORER}.diagram.columns.some(({{ value, points }}) =>
+      Math.abs(value - 0.7) < 0.01 && Math.abs(points[0].x - ({orbit[0]})) < 0.1)""")
+    wait_for_diagram(browser)
+    columns = browser.run(f"{EXPLORER}.diagram.columns.slice(800)")
+    assert {column["motion"] for column in columns} >= {"period 1"}
+    for column in columns[::20]:
+        osc = gp.Oscillator(mesh_frequency=column["value"])
+        point = column["points"][0]
+        truth = gp.steady_state(osc, point["x"], point["v"], max_period=32)
+        if column["motion"].startswith("period"):
+            assert f"period {truth.period}" == column["motion"]
+            assert abs(truth.points - [point["x"], point["v"]]).max(axis=1).min() < 1e-8
+
+
 def test_the_diagram_answers_to_the_keyboard(page):
     browser = page("#damping_ratio=0.06")
     wait_for_diagram(browser)

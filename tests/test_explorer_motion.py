@@ -185,7 +185,7 @@ def test_spectrum_and_samples(run):
     assert np.abs(np.array(amplitude) - lines.amplitude[:-1]).max() < 1e-13
 
 
-DIAGRAM = """(order) => [...gearpair.use("worker").columns(order)].filter((column) => column !== null)"""
+DIAGRAM = """(order) => [...gearpair.use("worker").columns(order)].filter(Boolean)"""
 
 
 def test_the_diagram_is_a_rising_and_then_a_falling_sweep(run):

@@ -138,6 +138,9 @@ gearpair.define(
         this.draw();
         if (!this.diagram.plot) this.diagram.draw(this.theme);
         this.showReadout(this.shown);
+        if (this.shown.status === "periodic") {
+          this.diagram.follow({ value: this.state[this.state.diagram], points: this.shown.points });
+        }
       }
 
       showDiagram() {
@@ -154,10 +157,10 @@ gearpair.define(
 
       draw() {
         const { shown, theme, state } = this;
-        const colour = theme.motion[plotting.colourName(shown.name)];
+        const escaped = shown.name === "escaped"; // its colour is too faint for a line
+        const colour = escaped ? theme.muted : theme.motion[plotting.colourName(shown.name)];
         if (colour !== this.colour) this.root.style.setProperty("--motion", (this.colour = colour));
         this.diagram.mark({ value: state[state.diagram], points: shown.points, colour });
-        if (!shown.recorded) return;
         const start = { x: state.x, v: state.v };
         this.historyPlot = history.drawHistory(this.find("history"), theme, { ...shown, colour });
         this.phasePlot = phase.drawPhase(this.find("phase"), theme, { ...shown, start, colour });
@@ -167,8 +170,8 @@ gearpair.define(
 
       // The teeth, and the dots that run along the time history and the phase portrait.
       animate(elapsed) {
-        const recorded = this.shown?.recorded;
-        if (!recorded || (!this.playing && this.still)) return;
+        if (!this.shown || (!this.playing && this.still)) return;
+        const { recorded } = this.shown;
         this.still = !this.playing;
         if (this.playing) this.time += elapsed * this.speed;
         if (this.time >= recorded.periods) {

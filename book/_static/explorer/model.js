@@ -4,6 +4,8 @@ gearpair.define("model", ["cells", "flow", "settle", "observe", "measures"], fun
   const SAMPLES = 2048; // of a recorded motion
   const [SPECTRUM_PERIODS, SPECTRUM_SAMPLES] = [64, 8192]; // of a motion that does not repeat
   const SETTINGS = { samples: 1200 };
+  const NOTHING = { frequency: [], amplitude: [] };
+  const PASSING = { status: "settling", name: "settling", lines: false };
 
   class Model {
     // Take a new gear pair and start; nothing is computed yet.
@@ -26,13 +28,14 @@ gearpair.define("model", ["cells", "flow", "settle", "observe", "measures"], fun
       return true;
     }
 
-    // The motion as it is now: { status, name, points, recorded, spectrum, ... }; what did not stay bounded has no record.
+    // The motion as it is now: { status, name, points, recorded, spectrum, ... }; what did
+    // not stay bounded has neither points nor lines.
     describe() {
       const { cells, settled } = this;
       if (!settled) return this.passing();
       const { status, period, points } = settled;
       const name = measures.motionName(status, period);
-      if (!points.length) return { status, name, points, recorded: null };
+      if (!points.length) return { status, name, points, recorded: this.beginning(), spectrum: NOTHING };
       const first = flow.startAt(cells, points[0].x, points[0].v);
       const periods = period ? period * Math.max(1, Math.round(SHOWN / period)) : SHOWN;
       this.player = first;
@@ -55,6 +58,13 @@ gearpair.define("model", ["cells", "flow", "settle", "observe", "measures"], fun
       };
     }
 
+    // How a motion that does not stay bounded sets out.
+    beginning() {
+      const { x, v } = this.state;
+      const [long, brief] = [SHOWN, 1].map((n) => observe.record(this.cells, flow.startAt(this.cells, x, v), n, SAMPLES));
+      return long.status === flow.OK ? long : brief;
+    }
+
     // A motion that has not settled yet, from where it has got to.
     passing() {
       const start = { ...this.motion };
@@ -63,9 +73,8 @@ gearpair.define("model", ["cells", "flow", "settle", "observe", "measures"], fun
         x: recorded.x[(i * SAMPLES) / SHOWN],
         v: recorded.v[(i * SAMPLES) / SHOWN],
       }));
-      const status = recorded.status === flow.OK ? "settling" : "escaped";
-      const spectrum = measures.spectrum(recorded.x, SHOWN, true);
-      return { status, name: status, points, recorded: status === "escaped" ? null : recorded, spectrum, lines: false };
+      if (recorded.status !== flow.OK) return { ...PASSING, points: [], recorded: this.beginning(), spectrum: NOTHING };
+      return { ...PASSING, points, recorded, spectrum: measures.spectrum(recorded.x, SHOWN, true) };
     }
 
     spectrum(period, { x, v }) {

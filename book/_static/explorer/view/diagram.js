@@ -2,6 +2,7 @@
 gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axes, inside, padded, colourName }, worker) {
   const COUNT = 400; // values of the parameter, each visited rising and falling
   const WAIT = 250; // milliseconds without a change before the worker starts
+  const [TALLEST, TALLEST_BRANCH] = [10, 4]; // |X| up to which the sweeps, and a branch added to them, widen the axes
   const REACH = 16; // pixels from a click to the point that it means
 
   class Diagram {
@@ -28,15 +29,28 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
       if (key === this.key || !this.worker) return;
       this.key = key;
       this.stale = true;
+      this.busy = true;
       this.order++;
       this.worker.postMessage({ id: this.order });
       this.dots.style.opacity = 0.35;
+      const order = { oscillator: state, parameter: entry.name, lower: entry.min || entry.step, upper: entry.max };
+      this.sent = { id: this.order, ...order, count: COUNT, x, v };
+      clearTimeout(this.timer);
+      this.timer = setTimeout(() => this.worker.postMessage(this.sent), WAIT);
+      this.note.textContent = "computing …";
+    }
+
+    // Add the branch of a motion that both sweeps have missed: { value, points } on the section.
+    follow(missed) {
+      this.missed = missed;
+      if (this.busy || !this.worker) return;
       clearTimeout(this.timer);
       this.timer = setTimeout(() => {
-        const order = { oscillator: state, parameter: entry.name, lower: entry.min || entry.step, upper: entry.max };
-        this.worker.postMessage({ id: this.order, ...order, count: COUNT, x, v });
+        this.missed = null;
+        const { value: from, points } = missed;
+        if (from < this.sent.lower || from > this.sent.upper) return;
+        this.worker.postMessage({ ...this.sent, from, ...points[0] });
       }, WAIT);
-      this.note.textContent = "computing …";
     }
 
     receive({ id, batch, done }) {
@@ -53,13 +67,16 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
       if (this.plot && before.bottom === after.bottom && before.top === after.top) this.drawColumns(batch);
       else this.draw(this.theme);
       this.describe();
-      this.note.textContent = done ? "" : `computing … ${Math.round((50 * this.columns.length) / COUNT)} %`;
+      this.note.textContent = done ? "" : `computing … ${Math.min(Math.round((50 * this.columns.length) / COUNT), 99)} %`;
+      this.busy = !done;
+      if (done && this.missed) this.follow(this.missed);
     }
 
     range() {
       let [low, high] = [-1, 1];
-      for (const { points } of this.columns) {
-        for (const { x } of points) [low, high] = [Math.min(low, x), Math.max(high, x)];
+      for (const [i, { points }] of this.columns.entries()) {
+        const most = i < 2 * COUNT ? TALLEST : TALLEST_BRANCH;
+        for (const { x } of points) [low, high] = [Math.min(low, Math.max(x, -most)), Math.max(high, Math.min(x, most))];
       }
       const [bottom, top] = padded(low, high);
       return { left: this.entry.min, right: this.entry.max, bottom, top };

@@ -52,7 +52,7 @@ gearpair.define("plot", [], function () {
   // Axes around the data of `range` { left, right, bottom, top }: draws them and returns the maps of data to pixels.
   // `yTicks` are [value, text] where they are not plain numbers.
   function axes({ ctx, width, height }, range, theme, { xLabel, yLabel, yTicks }) {
-    const box = { left: 46, right: width - 8, top: 8, bottom: height - 36 };
+    const box = { left: 50, right: width - 8, top: 8, bottom: height - 36 };
     const x = (value) => box.left + ((value - range.left) / (range.right - range.left)) * (box.right - box.left);
     const y = (value) => box.bottom - ((value - range.bottom) / (range.top - range.bottom)) * (box.bottom - box.top);
     ctx.font = `11.5px ${theme.font}`;
@@ -82,7 +82,7 @@ gearpair.define("plot", [], function () {
     ctx.textBaseline = "bottom";
     ctx.fillText(xLabel, (box.left + box.right) / 2, height - 1);
     ctx.save();
-    ctx.translate(10, (box.top + box.bottom) / 2);
+    ctx.translate(9, (box.top + box.bottom) / 2);
     ctx.rotate(-Math.PI / 2);
     ctx.textBaseline = "middle";
     ctx.fillText(yLabel, 0, 0);

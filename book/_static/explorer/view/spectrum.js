@@ -1,6 +1,6 @@
 // The amplitude spectrum of X: lines of a motion that repeats, a curve of one that does not.
 gearpair.define("spectrum_view", ["plot"], function ({ prepare, axes, inside }) {
-  const HIGHEST = 5; // in mesh frequencies
+  const HIGHEST = 5.2; // in mesh frequencies
   const [LEAST, MOST] = [-4, 1]; // powers of ten
   const POWERS = [[-4, "10⁻⁴"], [-3, "10⁻³"], [-2, "10⁻²"], [-1, "0.1"], [0, "1"], [1, "10"]];
 
