@@ -1,4 +1,4 @@
-"""A real browser for tests: Chromium without a window, over its debugging pipe, with nothing but the standard library."""
+"""A real browser for tests: Chromium without a window, over its debugging pipe, by the standard library alone."""
 
 from __future__ import annotations
 
@@ -129,7 +129,11 @@ class Browser:
     def size(self, width: int, height: int, *, scale: float = 1.0) -> None:
         """Make the window this large, in CSS pixels."""
         self.command(
-            "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=width < 600
+            "Emulation.setDeviceMetricsOverride",
+            width=width,
+            height=height,
+            deviceScaleFactor=scale,
+            mobile=width < 600,
         )
 
     def media(self, **features: str) -> None:

@@ -1,4 +1,4 @@
-"""The explorer's modules run by node or in a browser, whichever there is: a JavaScript function of some JSON, and its answer."""
+"""The explorer's modules run by node and in a browser, whichever there are: a function of some JSON, and its answer."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from tests.explorer_pages import STATIC
 
 MODULES = STATIC / "explorer"
 NODE = """
-const [folder, part] = process.argv.slice(1);
-require(folder + "/load.js");
-for (const name of gearpairParts.explorer.slice(0, gearpairParts.explorer.indexOf("view/plot"))) require(`${folder}/${name}.js`);
+const folder = process.argv[1];
+require(`${folder}/load.js`);
+for (const name of gearpairParts.motion) require(`${folder}/${name}.js`);
 const { source, data } = JSON.parse(require("fs").readFileSync(0, "utf8"));
 process.stdout.write(JSON.stringify((0, eval)(`(${source})`)(data)));
 """
@@ -42,10 +42,12 @@ def run_in_chromium(source: str, data: Any) -> Any:
     with tempfile.TemporaryDirectory() as folder:
         page = Path(folder) / "page.html"
         load = (MODULES / "load.js").as_uri()
-        page.write_text(f'<!DOCTYPE html><title>x</title><script src="{load}" data-part="pair" defer></script>')
+        page.write_text(f'<!DOCTYPE html><title>x</title><script src="{load}" data-part="motion" defer></script>')
         with Browser(Path(folder) / "profile") as browser:
             browser.open(page.as_uri())
-            browser.wait_for("globalThis.gearpair && document.readyState === 'complete'")
+            browser.wait_for(
+                "globalThis.gearpairParts.motion.length === document.querySelectorAll('head script').length - 1"
+            )
             answer = browser.run(f"JSON.stringify(({source})({json.dumps(data)}))")
             assert not browser.errors
             return json.loads(answer)

@@ -1,4 +1,4 @@
-"""The explorer's page in a real browser: it opens from a file, answers, remembers, and is honest about what it shows."""
+"""The explorer's page in a real browser: it opens from a file, answers, remembers, and says what it shows."""
 
 import re
 
@@ -52,7 +52,9 @@ def shown(browser, name: str) -> str:
 
 
 def place(browser, element: str) -> dict:
-    return browser.run(f"(({{ x, y, width, height }}) => ({{ x, y, width, height }}))({element}.getBoundingClientRect())")
+    return browser.run(
+        f"(({{ x, y, width, height }}) => ({{ x, y, width, height }}))({element}.getBoundingClientRect())"
+    )
 
 
 def state(browser) -> dict:
@@ -153,7 +155,10 @@ def test_dragging_a_slider_shows_a_motion_for_every_move(page):
     browser.run(f"""{{
       const explorer = {EXPLORER}, draw = explorer.draw;
       window.drawn = [];
-      explorer.draw = (...all) => {{ drawn.push(explorer.model.state.damping_ratio); return draw.apply(explorer, all); }};
+      explorer.draw = (...all) => {{
+        drawn.push(explorer.model.state.damping_ratio);
+        return draw.apply(explorer, all);
+      }};
     }}""")
     box = place(browser, "document.getElementById('gp-damping_ratio')")
     y = box["y"] + box["height"] / 2
@@ -301,8 +306,9 @@ def test_no_width_scrolls_sideways(page, width):
 
 def test_every_control_has_a_name_and_every_picture_a_description(page):
     browser = page()
-    nameless = browser.run("""[...document.querySelectorAll("input, select, button, canvas:not([aria-hidden])")].filter((e) =>
-      !e.labels?.length && !e.getAttribute("aria-label") && !e.textContent.trim()).map((e) => e.outerHTML)""")
+    nameless = browser.run("""[...document.querySelectorAll("input, select, button, canvas:not([aria-hidden])")]
+      .filter((e) => !e.labels?.length && !e.getAttribute("aria-label") && !e.textContent.trim())
+      .map((e) => e.outerHTML)""")
     assert nameless == []
 
 

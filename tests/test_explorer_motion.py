@@ -140,9 +140,7 @@ def test_settled_motions(run):
 
 
 def test_large_starts_escape_where_contact_is_unstable(run):
-    osc = gp.Oscillator(
-        mesh_frequency=2.0, damping_ratio=0.001, stiffness=gp.StiffnessWave.rectangular(1.5, 0.5, 0.5)
-    )
+    osc = gp.Oscillator(mesh_frequency=2.0, damping_ratio=0.001, stiffness=gp.StiffnessWave.rectangular(1.5, 0.5, 0.5))
     assert gp.steady_state(osc, 50.0, 0.0).status == "escaped"
     assert run(SETTLE, [as_json(osc, 50.0, 0.0)]) == [{"status": "escaped"}]
 
@@ -205,3 +203,23 @@ def test_the_diagram_is_a_rising_and_then_a_falling_sweep(run):
             assert np.abs(np.array(points) - xs[: len(points)]).max() < 1e-8
     both = np.abs(up.x_max.values - down.x_max.values[::-1]) > 1e-3
     assert both.any()  # somewhere the way there decides
+
+
+ESCAPE = """({ x, v, ...oscillator }) => {
+  const cells = gearpair.use("cells").buildCells(oscillator);
+  const { OK, ESCAPED, startAt, walk } = gearpair.use("flow");
+  const motion = startAt(cells, x, v);
+  for (let periods = 1; ; periods++) {
+    const status = walk(cells, motion, 1);
+    if (status !== OK) return [periods, status === ESCAPED];
+  }
+}"""
+
+
+def test_an_escape_is_noticed_in_the_same_period(run):
+    wave = gp.StiffnessWave.rectangular(1.5, 0.5, 0.5)
+    osc = gp.Oscillator(mesh_frequency=2.0, damping_ratio=0.001, stiffness=wave)
+    periods, escaped = run(ESCAPE, as_json(osc, 50.0, 0.0))
+    assert escaped
+    assert np.isinf(gp.stroboscopic_map(osc, 50.0, 0.0, periods)[0])
+    assert np.isfinite(gp.stroboscopic_map(osc, 50.0, 0.0, periods - 1)[0])

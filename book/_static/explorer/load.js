@@ -2,10 +2,11 @@
 // <script src=".../explorer/load.js" data-part="explorer" defer></script>
 (function (scope) {
   "use strict";
-  const MOTION = ["modules", "closed_form", "cells", "certified", "flow", "tangent", "observe", "settle", "measures", "worker"];
+  const MOTION = ["modules", "closed_form", "cells", "certified", "flow", "tangent", "observe", "settle", "measures"];
   const TEETH = ["state", "model", "player", "view/plot", "view/teeth"];
-  const PICTURES = ["view/history", "view/phase", "view/spectrum", "view/diagram", "controls", "readout"];
+  const PICTURES = ["view/history", "view/phase", "view/spectrum", "worker", "view/diagram", "controls", "readout"];
   const PARTS = {
+    motion: [...MOTION, "worker"],
     explorer: [...MOTION, ...TEETH, ...PICTURES, "explorer"],
     pair: [...MOTION, ...TEETH, "pair"],
   };

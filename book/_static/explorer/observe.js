@@ -5,9 +5,10 @@ gearpair.define("observe", ["closed_form", "certified", "flow"], function (close
   const { nextTurn, leastStep } = certified;
   const { series, ahead, walk } = flow;
 
-  // Range of X and largest modulus of the mesh force k f over `periods`: { status, low, high, force }.
-  function extremes(cells, motion, periods) {
-    let [low, high, force] = [motion.x, motion.x, 0];
+  // Range of X and largest modulus of the mesh force k f over `periods`, and over what was `seen` before:
+  // { status, low, high, force }.
+  function extremes(cells, motion, periods, seen = { low: motion.x, high: motion.x, force: 0 }) {
+    let { low, high, force } = seen;
     const status = walk(cells, motion, periods, {
       whole(j, { region }) {
         const reached = Math.abs(region) * Math.max(Math.abs(ahead[2] - region), Math.abs(ahead[3] - region));

@@ -11,6 +11,7 @@ gearpair.define("settle", ["flow", "tangent", "observe"], function (flow, tangen
   const SAME_POINT = 1e-9;
   const RESOLVED = 4;
   const EXPONENT_BLOCKS = 20;
+  const PIECE = 200; // mesh periods between two chances to draw
   const DEFAULTS = { maxPeriod: 64, exponentPeriods: 2000, samples: 256 };
 
   // Mesh periods that a transient needs to fall to 9 digits at best.
@@ -91,8 +92,13 @@ gearpair.define("settle", ["flow", "tangent", "observe"], function (flow, tangen
     }
     if (found.orbit) return periodic(cells, found.orbit);
     const status = measured.largest > RESOLVED * measured.error ? "aperiodic" : "unsettled";
+    const again = { ...motion };
     const points = sectionPoints(cells, motion, samples);
-    const range = extremes(cells, startAt(cells, points[0].x, points[0].v), exponentPeriods);
+    let range;
+    for (let done = 0; done < exponentPeriods; done += PIECE) {
+      yield;
+      range = extremes(cells, again, Math.min(PIECE, exponentPeriods - done), range);
+    }
     const { largest, smallest, error } = measured;
     return { ...range, status, period: null, points, monodromy: null, exponents: [largest, smallest], error };
   }
