@@ -45,9 +45,6 @@ def run_in_chromium(source: str, data: Any) -> Any:
         page.write_text(f'<!DOCTYPE html><title>x</title><script src="{load}" data-part="motion" defer></script>')
         with Browser(Path(folder) / "profile") as browser:
             browser.open(page.as_uri())
-            browser.wait_for(
-                "globalThis.gearpairParts.motion.length === document.querySelectorAll('head script').length - 1"
-            )
             answer = browser.run(f"JSON.stringify(({source})({json.dumps(data)}))")
             assert not browser.errors
             return json.loads(answer)

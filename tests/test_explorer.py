@@ -62,7 +62,7 @@ def state(browser) -> dict:
 
 
 def wait_for_diagram(browser):
-    browser.wait_for(f"{EXPLORER}.diagram.columns.length && {part('diagram-note')}.textContent === ''")
+    browser.wait_for(f"!{EXPLORER}.diagram.busy")
 
 
 @pytest.mark.parametrize(
@@ -334,12 +334,13 @@ def test_the_small_pairs_move_and_rest(browser, tmp_path):
 
 
 def test_colours_are_the_book_s():
-    css = (MODULES / "explorer.css").read_text(encoding="utf-8")
+    css = (MODULES / "motion.css").read_text(encoding="utf-8")
     for name, colour in MOTION_COLOURS.items():
         assert f"--gp-{name.replace(' ', '-')}: {colour.lower()};" in css
 
 
 def test_no_script_is_long():
-    lengths = {path.name: len(path.read_text(encoding="utf-8").splitlines()) for path in MODULES.rglob("*.js")}
+    paths = [*MODULES.rglob("*.js"), *MODULES.rglob("*.css")]
+    lengths = {path.name: len(path.read_text(encoding="utf-8").splitlines()) for path in paths}
     assert len(lengths) > 15
     assert {name for name, length in lengths.items() if length > 400} == set()

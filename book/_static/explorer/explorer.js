@@ -96,11 +96,18 @@ gearpair.define(
         button.setAttribute("aria-pressed", String(playing));
       }
 
-      hover({ column, point }) {
+      // The point of the diagram under the keyboard or the pointer: { column, point }, or null.
+      hover(cursor) {
+        const note = this.find("diagram-note");
+        if (!cursor) {
+          if (!this.diagram.busy) note.textContent = "";
+          return;
+        }
+        const { column, point } = cursor;
         const text = `${Number(column.value.toPrecision(4))}, ${column.motion}, X = ${point.x.toFixed(2)}`;
         this.find("diagram").setAttribute("aria-valuenow", String(column.value));
         this.find("diagram").setAttribute("aria-valuetext", text);
-        this.find("diagram-note").textContent = `${text} · Enter shows it`;
+        note.textContent = plotting.sign(text);
       }
 
       redraw() {

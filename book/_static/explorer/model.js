@@ -1,8 +1,9 @@
 // The motion that the page shows: settled in pieces of a few milliseconds, then recorded.
 gearpair.define("model", ["cells", "flow", "settle", "observe", "measures"], function (tables, flow, settle, observe, measures) {
   const SHOWN = 8; // mesh periods of a time history, about
-  const SAMPLES = 2048; // of a recorded motion
-  const [SPECTRUM_PERIODS, SPECTRUM_SAMPLES] = [64, 8192]; // of a motion that does not repeat
+  const SAMPLES = 2048; // of a recorded motion; a power of two, for its spectrum
+  const LONG = { periods: 16, samples: 8192 }; // a cycle longer than this takes more of them
+  const SPECTRUM_PERIODS = 64; // under the spectrum of a motion that does not repeat
   const SETTINGS = { samples: 1200 };
   const NOTHING = { frequency: [], amplitude: [] };
   const PASSING = { status: "settling", name: "settling", lines: false };
@@ -39,7 +40,7 @@ gearpair.define("model", ["cells", "flow", "settle", "observe", "measures"], fun
       const first = flow.startAt(cells, points[0].x, points[0].v);
       const periods = period ? period * Math.max(1, Math.round(SHOWN / period)) : SHOWN;
       this.player = first;
-      const recorded = observe.record(cells, first, periods, SAMPLES);
+      const recorded = observe.record(cells, first, periods, periods > LONG.periods ? LONG.samples : SAMPLES);
       return {
         status,
         name,
@@ -79,7 +80,7 @@ gearpair.define("model", ["cells", "flow", "settle", "observe", "measures"], fun
 
     spectrum(period, { x, v }) {
       const periods = period ?? SPECTRUM_PERIODS;
-      const count = period ? SAMPLES : SPECTRUM_SAMPLES;
+      const count = periods > LONG.periods ? LONG.samples : SAMPLES;
       const { x: samples } = observe.record(this.cells, flow.startAt(this.cells, x, v), periods, count);
       return measures.spectrum(samples, periods, period === null);
     }

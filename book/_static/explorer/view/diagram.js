@@ -13,12 +13,15 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
       this.columns = [];
       this.order = 0;
       this.key = "";
-      this.cursor = null; // the point under the keyboard: { column, point }
+      this.busy = true;
+      this.cursor = null; // the point under the keyboard or the pointer: { column, point }
       if (this.worker) this.worker.onmessage = ({ data }) => this.receive(data);
       else note.textContent = "This browser refuses the worker that computes the diagram.";
       overlay.addEventListener("click", (event) => this.click(event));
       overlay.addEventListener("keydown", (event) => this.press(event));
       overlay.addEventListener("blur", () => this.moveCursor(null));
+      overlay.addEventListener("pointermove", ({ offsetX, offsetY }) => this.moveCursor(this.nearest(offsetX, offsetY)));
+      overlay.addEventListener("pointerleave", () => this.moveCursor(null));
     }
 
     // The gear pair and the parameter to sweep; a new diagram starts when they have stood still for a moment.
@@ -160,18 +163,25 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
       ctx.stroke();
     }
 
+    // The point { column, point } nearest to a place of the picture, or null where none is near.
+    nearest(px, py) {
+      if (!this.plot) return null;
+      let [best, least] = [null, REACH ** 2];
+      for (const column of this.columns) {
+        const dx = this.plot.x(column.value) - px;
+        if (dx * dx > least) continue;
+        for (const point of column.points) {
+          const dy = this.plot.y(point.x) - py;
+          if (dx * dx + dy * dy < least) [best, least] = [{ column, point }, dx * dx + dy * dy];
+        }
+      }
+      return best;
+    }
+
     // A click picks the nearest point; beside all points it picks the value alone.
     click({ offsetX, offsetY }) {
       if (!this.plot) return;
-      let [best, nearest] = [null, REACH ** 2];
-      for (const column of this.columns) {
-        const dx = this.plot.x(column.value) - offsetX;
-        if (dx * dx > nearest) continue;
-        for (const point of column.points) {
-          const dy = this.plot.y(point.x) - offsetY;
-          if (dx * dx + dy * dy < nearest) [best, nearest] = [{ column, point }, dx * dx + dy * dy];
-        }
-      }
+      const best = this.nearest(offsetX, offsetY);
       if (best) this.pick(best);
       else {
         const value = this.plot.data(offsetX, offsetY).x;
@@ -217,9 +227,10 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
     }
 
     moveCursor(cursor) {
+      if (cursor === this.cursor) return;
       this.cursor = cursor;
       this.mark(this.marked);
-      if (cursor) this.onHover(cursor);
+      this.onHover(cursor);
     }
   }
 

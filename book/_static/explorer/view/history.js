@@ -14,7 +14,7 @@ gearpair.define("history", ["plot"], function ({ prepare, axes, inside, padded }
       ctx.lineWidth = 1.6;
       ctx.lineJoin = "round";
       ctx.beginPath();
-      const step = Math.max(1, Math.floor(values.length / 1500));
+      const step = Math.max(1, Math.floor(values.length / (2 * paper.width)));
       for (let i = 0; i < values.length; i += step) ctx.lineTo(plot.x((i * periods) / values.length), plot.y(values[i]));
       ctx.stroke();
       ctx.fillStyle = theme.paper;

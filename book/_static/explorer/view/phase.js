@@ -1,6 +1,6 @@
 // X' over X, with the section points, and the start that a click moves.
 gearpair.define("phase", ["plot"], function ({ prepare, axes, inside, padded }) {
-  function drawPhase(canvas, theme, { recorded, points, start, colour }) {
+  function drawPhase(canvas, theme, { recorded, period, points, start, colour }) {
     const paper = prepare(canvas);
     const { ctx } = paper;
     const { x: xs, v: vs } = recorded;
@@ -16,7 +16,8 @@ gearpair.define("phase", ["plot"], function ({ prepare, axes, inside, padded }) 
       ctx.lineWidth = points.length > 64 ? 1 : 1.6;
       ctx.lineJoin = "round";
       ctx.beginPath();
-      for (let i = 0; i < xs.length; i++) ctx.lineTo(plot.x(xs[i]), plot.y(vs[i]));
+      const once = period ? Math.ceil((xs.length * period) / recorded.periods) : xs.length - 1; // a cycle need not be retraced
+      for (let i = 0; i <= once; i++) ctx.lineTo(plot.x(xs[i % xs.length]), plot.y(vs[i % xs.length]));
       ctx.stroke();
       ctx.globalAlpha = 1;
       drawPoints(ctx, theme, plot, points, colour);

@@ -2,7 +2,7 @@
 gearpair.define("plot", [], function () {
   const MOTIONS = ["period 1", "period 2", "period 3", "period 4", "period 6", "period 8", "other periods", "chaos", "unsettled", "escaped"];
 
-  // The colours of explorer.css as they are now: they change with the theme.
+  // The colours of motion.css as they are now: they change with the theme.
   function readTheme(element) {
     const style = getComputedStyle(element);
     const colour = (name) => style.getPropertyValue(`--gp-${name}`).trim();
@@ -94,7 +94,7 @@ gearpair.define("plot", [], function () {
     return { box, x, y, data };
   }
 
-  const sign = (value) => String(value).replace("-", "−");
+  const sign = (value) => String(value).replace("-", "−"); // a minus, not a hyphen
 
   // Draw inside the box only.
   function inside({ ctx }, { box }, draw) {
