@@ -88,9 +88,11 @@ CALLS = {
     "samples_per_period must be a whole number of at least 1, got 0": lambda: gp.trajectory(
         BASELINE, 0.0, 0.0, 1, samples_per_period=0
     ),
-    "method must be one of 'exact', 'RK23'": lambda: gp.trajectory(BASELINE, 0.0, 0.0, 1, method="Euler"),
-    "rtol must be a finite number above 0, got 0.0": lambda: gp.trajectory(
-        BASELINE, 0.0, 0.0, 1, method="RK45", rtol=0.0
+    "method must be one of 'RK23', 'RK45'": lambda: gp.methods.integrated_trajectory(
+        BASELINE, 0.0, 0.0, 1, method="Euler"
+    ),
+    "rtol must be a finite number above 0, got 0.0": lambda: gp.methods.integrated_trajectory(
+        BASELINE, 0.0, 0.0, 1, rtol=0.0
     ),
     "max_period must be a whole number of at least 1, got 0": lambda: gp.steady_state(BASELINE, max_period=0),
     "n_exponent must be a whole number of at least 1, got 2.0": lambda: gp.steady_state(BASELINE, n_exponent=2.0),

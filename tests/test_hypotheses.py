@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair.article import trials as hy
+from gearpair import article as hy
+from gearpair.article.trials import MAX_PERIOD
+from gearpair.motion import periodic
 
 
 def test_the_enumeration_is_complete_and_without_repeats():
@@ -58,13 +60,13 @@ def test_many_sweeps_side_by_side_are_the_sweeps_one_by_one(seeding):
     for row, hypothesis in zip(side_by_side, (hy.PRINTED, hy.SWAPPED), strict=True):
         alone = gp.sweep(
             hypothesis.oscillator(), "mesh_frequency", order, seeding="restart" if seeding == "restart" else "carry",
-            max_period=hy.MAX_PERIOD, n_exponent=20, n_samples=hy.MAX_PERIOD,
+            max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD,
         ).sortby("mesh_frequency")  # fmt: skip
         np.testing.assert_array_equal(row, alone.period.values)
 
 
 def test_trials_are_ranked_and_one_per_pair():
-    done = hy.trials([hy.PRINTED, hy.SWAPPED], hy.all_protocols([(0.0, 0.0), (1.0, 0.0)]), 21)
+    done = hy.run_trials([hy.PRINTED, hy.SWAPPED], hy.all_protocols([(0.0, 0.0), (1.0, 0.0)]), 21)
     assert len(done) == 2 * 3 * 2
     totals = [t.total for t in done]
     assert totals == sorted(totals, reverse=True)
@@ -79,7 +81,7 @@ def test_trials_are_ranked_and_one_per_pair():
 def test_many_starts_find_both_period_one_and_period_three():
     """At zeta = 0.0075 the swapped reading has a period-1 and a period-3 motion; zeta = 0.02 has period 1 alone."""
     swapped, printed = hy.reached([hy.SWAPPED, hy.PRINTED], "damping_ratio", 5)
-    assert {"1", "3"} <= swapped.motions[1]
+    assert {periodic(1), periodic(3)} <= swapped.motions[1]
     assert swapped.within("D5") == 1.0
     assert swapped.coverage > printed.coverage
 
@@ -110,7 +112,7 @@ def test_bad_input_is_refused(make, message):
 def test_runge_kutta_at_a_tight_tolerance_draws_what_the_exact_flow_draws():
     protocol = hy.Protocol("down", 300, 1.0, 0.0)
     (drawn,) = hy.runge_kutta_trials([hy.SWAPPED], [protocol], 1e-9, 21)
-    (exact,) = hy.trials([hy.SWAPPED], [protocol], 21)
+    (exact,) = hy.run_trials([hy.SWAPPED], [protocol], 21)
     assert drawn.damping.agreement == pytest.approx(exact.damping.agreement, abs=0.1)
     assert drawn.frequency.agreement == pytest.approx(exact.frequency.agreement, abs=0.1)
 
@@ -133,9 +135,9 @@ def test_runge_kutta_refuses_what_it_cannot_draw(hypothesis, protocol, message):
         hy.runge_kutta_trials([hypothesis], [protocol], 1e-3, 5)
 
 
-def test_each_choice_is_worth_something():
-    ranked = hy.ranking(hy.trials([hy.PRINTED, hy.SWAPPED], [hy.Protocol("down")], 21))
-    rows = {(row[0], row[1]): row for row in hy.worth(ranked).rows}
+def test_each_choice_has_its_place_and_mean():
+    ranked = hy.ranking(hy.run_trials([hy.PRINTED, hy.SWAPPED], [hy.Protocol("down")], 21))
+    rows = {(row[0], row[1]): row for row in hy.score_by_choice(ranked).rows}
     assert rows["stiff for", "2 - eps"][2] == "1"
     assert rows["stiff for", "eps - 1"][2] == "2"
     assert rows["phase", "sin"][2] == "1"

@@ -8,9 +8,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
+from gearpair import article as hy
 from gearpair import plotting
 from gearpair.article import published
-from gearpair.article import trials as hy
+from gearpair.motion import periodic
 
 
 @pytest.fixture(autouse=True)
@@ -20,7 +21,7 @@ def no_figures_left():
 
 
 def test_score_ranking_has_a_dot_for_every_reading():
-    ranked = hy.ranking(hy.trials([hy.PRINTED, hy.SWAPPED], hy.all_protocols(), 21))
+    ranked = hy.ranking(hy.run_trials([hy.PRINTED, hy.SWAPPED], hy.all_protocols(), 21))
     ax = plotting.score_ranking(ranked, {"swapped": hy.SWAPPED})
     np.testing.assert_allclose(ax.lines[0].get_ydata(), [entry.mean for entry in ranked])
     np.testing.assert_allclose(ax.lines[1].get_ydata(), [entry.best.total for entry in ranked])
@@ -32,7 +33,7 @@ def test_reached_motions_has_a_box_for_every_range_and_dots_where_reached():
     ax = plotting.reached_motions(reached, title="swapped")
     assert len(ax.patches) == len(published.DAMPING_RANGES)
     assert [label.get_text() for label in ax.get_yticklabels()] == ["chaotic", "period 3", "period 1"]
-    np.testing.assert_allclose(ax.lines[2].get_xdata(), reached.values[reached.has("1")])
+    np.testing.assert_allclose(ax.lines[2].get_xdata(), reached.values[reached.has(periodic(1))])
 
 
 def test_coverage_by_phase():

@@ -1,12 +1,13 @@
 """The verdicts follow one rule, cover every item once, and agree with what is known independently."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
+from gearpair import article as hy
 from gearpair.article import published, verdicts
-from gearpair.article import trials as hy
-from gearpair.bifurcations.branches import continue_orbit
-from gearpair.bifurcations.orbits import periodic_orbit
+from gearpair.bifurcations import continue_orbit, periodic_orbit
 
 
 @pytest.mark.parametrize(
@@ -32,76 +33,108 @@ def test_the_rule(printed, best, word):
         (None, 0.86, "refuted"),
         (0.84, None, "refuted"),
         (None, None, "refuted"),
+        (0.809, 0.791, "confirmed"),  # near is 1 % on either side
+        (0.811, 0.809, "corrected"),
+        (0.809, 0.811, "corrected"),  # one of them near is enough
+        (0.811, 0.811, "corrected"),  # neither is near, the best is not far
+        (0.811, None, "refuted"),  # only the best reading's other number corrects
+        (None, 0.751, "corrected"),  # far is 5 % on either side
+        (None, 0.749, "refuted"),
+        (0.805, 0.9, "corrected"),
     ],
 )
 def test_the_rule_for_numbers(printed, best, word):
+    """On an axis of any length: near and far are shares of it."""
     assert verdicts.judge_number(printed, best, 0.8, 1.0) == word
+    half = [None if value is None else 0.5 * value for value in (printed, best)]
+    assert verdicts.judge_number(*half, 0.4, 0.5) == word
 
 
 def test_the_table_wants_every_item_exactly_once():
     items = [verdicts.Verdict(s.item, "", "", "vacuous") for s in published.STATEMENTS]
-    assert [row[0] for row in verdicts.table(reversed(items)).rows] == [s.item for s in published.STATEMENTS]
+    assert [row[0] for row in hy.verdict_table(reversed(items)).rows] == [s.item for s in published.STATEMENTS]
     with pytest.raises(ValueError, match="look at F3"):
-        verdicts.table([v for v in items if v.item != "F3"])
+        hy.verdict_table([v for v in items if v.item != "F3"])
     with pytest.raises(ValueError, match="exactly once"):
-        verdicts.table(items, items[:1])
+        hy.verdict_table(items, items[:1])
+    row = hy.verdict_table(
+        [verdicts.Verdict("F3", "so", "or so", "refuted")], (v for v in items if v.item != "F3")
+    ).rows
+    assert [r[2:] for r in row if r[0] == "F3"] == [("so", "or so", "refuted")]
 
 
 @pytest.fixture(scope="module")
 def swapped_changes():
     osc = hy.SWAPPED.oscillator(damping_ratio=0.01)
     third = continue_orbit(periodic_orbit(osc, 0.446, -0.347, 3), "damping_ratio", 0.0005, 0.03)
-    return verdicts.period_two(hy.SWAPPED) + third.bifurcations
+    return hy.period_two(hy.SWAPPED) + third.bifurcations
 
 
 def test_the_swapped_reading_has_the_published_saddle_node(swapped_changes):
     """D4: period 3 ends at 0.0165 in a saddle-node; the exact fold lies within 1 % of the axis."""
-    change = verdicts.nearest(0.0165, [b for b in swapped_changes if b.parameter == "damping_ratio"])
+    change = hy.nearest(0.0165, [b for b in swapped_changes if b.parameter == "damping_ratio"])
     assert (change.kind, change.period) == ("fold", 3)
     assert abs(change.value - 0.0165) < 0.01 * 0.025
 
 
 def test_the_swapped_reading_has_the_published_doubling_to_period_4(swapped_changes):
     """F4: a doubling at 0.865; the exact flip of period 2 lies within 1 % of the axis."""
-    change = verdicts.nearest(0.865, [b for b in swapped_changes if b.parameter == "mesh_frequency"])
+    change = hy.nearest(0.865, [b for b in swapped_changes if b.parameter == "mesh_frequency"])
     assert (change.kind, change.period) == ("flip", 2)
     assert abs(change.value - 0.865) < 0.01
 
 
-def test_nearness_is_certain_for_far_and_impossible_for_exact(swapped_changes):
+def changes_at(*values, kind="fold", parameter="damping_ratio"):
+    """Bifurcations of which only the value, the kind and the parameter matter."""
+    return [SimpleNamespace(kind=kind, parameter=parameter, value=value) for value in values]
+
+
+def test_a_distance_of_zero_from_the_stated_values_is_beyond_chance():
+    """Changes exactly at the published boundaries: distance 0, which no random table has."""
+    stated = [b.value for b in published.DAMPING_BOUNDARIES]
+    assert hy.distance_from_bifurcations("damping_ratio", changes_at(*stated)) == (0.0, 0.0)
+    off = changes_at(*stated, kind="grazing") + changes_at(0.5 * sum(stated)) + changes_at(*stated, parameter="b")
+    distance, _ = hy.distance_from_bifurcations("damping_ratio", off)  # grazings and other parameters do not count
+    assert distance == pytest.approx(0.5 * (stated[1] - stated[0]))
+
+
+def test_the_chance_of_a_distance_is_the_area_it_must_be(swapped_changes):
+    """One change at c, two boundaries: the share of the square of random ones with (|u - c| + |v - c|) / 2 <= d."""
     (fold,) = [b for b in swapped_changes if b.parameter == "damping_ratio" and b.kind == "fold"]
-    distance, chance = verdicts.nearness("damping_ratio", [fold])
-    expected = np.mean([abs(b.value - fold.value) for b in published.DAMPING_BOUNDARIES])
-    assert distance == pytest.approx(expected)
-    assert 0.0 < chance < 1.0
+    distance, chance = hy.distance_from_bifurcations("damping_ratio", [fold], n=20_000)
+    assert distance == pytest.approx(np.mean([abs(b.value - fold.value) for b in published.DAMPING_BOUNDARIES]))
+    away = np.abs((np.arange(2000) + 0.5) / 2000 * 0.025 - fold.value)
+    area = np.mean(0.5 * (away[:, None] + away) <= distance)
+    assert 0.1 < area < 0.9
+    assert chance == pytest.approx(area, abs=4.0 * np.sqrt(area * (1.0 - area) / 20_000))
 
 
 def test_existence_in_the_swapped_reading_and_not_in_the_printed():
     reached = [
         hy.reached([hy.PRINTED, hy.SWAPPED], p, 20, n_discarded=200) for p in ("mesh_frequency", "damping_ratio")
     ]
-    words = {v.item: v for v in verdicts.range_items(*zip(*reached, strict=True))}
+    words = {v.item: v for v in hy.range_items(*zip(*reached, strict=True))}
     assert {words[item].verdict for item in ("F3", "F5", "F10", "F11", "D3")} == {"corrected"}
     assert words["F11"].best == "on all of it"
     assert "D1" not in words
 
 
 def test_chaos_at_small_damping_is_a_transient():
-    d1, d2 = verdicts.transient_items(hy.PRINTED, hy.SWAPPED)
+    d1, d2 = hy.transient_items(hy.PRINTED, hy.SWAPPED)
     assert d1.verdict == d2.verdict == "refuted"
     assert d1.best == "after 30 000 periods chaotic at 0 of 5 values"
 
 
 def test_one_period_two_impact_states():
     """I4: in the swapped reading every start leads to period 1, and yet to one of two impact states."""
-    items = {v.item: v for v in verdicts.start_items(hy.PRINTED, hy.SWAPPED)}
+    items = {v.item: v for v in hy.start_items(hy.PRINTED, hy.SWAPPED)}
     assert items["I4"].verdict == "corrected"
     assert items["I4"].best == "2 attractors, period 1: double and single_drive"
     assert items["C3"].verdict == "confirmed"
 
 
 def test_statements_about_the_model():
-    items = {v.item: v for v in verdicts.model_items(hy.PRINTED, hy.SWAPPED)}
+    items = {v.item: v for v in hy.model_items(hy.PRINTED, hy.SWAPPED)}
     assert items["M5"].verdict == "refuted" and "0.9464" in items["M5"].printed and "0.7556" in items["M5"].best
     assert items["F14"].verdict == "vacuous"
     assert items["K2"].verdict == "corrected"

@@ -86,6 +86,7 @@ def periods(
 
     Examples
     --------
+    >>> from gearpair.article import SWAPPED
     >>> periods([SWAPPED], Protocol("down", None), "damping_ratio", 6)[0, 1:].tolist()
     [1, 1, 1, 1, 1]
     """
@@ -100,7 +101,7 @@ def periods(
     return out.period.reshape(len(hypotheses), n_values)[:, order]
 
 
-def trials(hypotheses: Sequence[Hypothesis], protocols: Sequence[Protocol], n_values: int = 101) -> list[Trial]:
+def run_trials(hypotheses: Sequence[Hypothesis], protocols: Sequence[Protocol], n_values: int = 101) -> list[Trial]:
     """Every hypothesis by every protocol, the best first.
 
     Parameters
@@ -116,7 +117,8 @@ def trials(hypotheses: Sequence[Hypothesis], protocols: Sequence[Protocol], n_va
 
     Examples
     --------
-    >>> best = trials([PRINTED, SWAPPED], [Protocol("down", None)], n_values=26)[0]
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> best = run_trials([PRINTED, SWAPPED], [Protocol("down", None)], n_values=26)[0]
     >>> best.hypothesis == SWAPPED
     True
     """
@@ -132,7 +134,7 @@ def trials(hypotheses: Sequence[Hypothesis], protocols: Sequence[Protocol], n_va
 def runge_kutta_trials(
     hypotheses: Sequence[Hypothesis], protocols: Sequence[Protocol], rtol: float, n_values: int = 61
 ) -> list[Trial]:
-    """`trials` with Runge-Kutta 4-5 in place of the exact flow, periods read off as a reader would.
+    """`run_trials` with Runge-Kutta 4-5 in place of the exact flow, periods read off as a reader would.
 
     Parameters
     ----------
@@ -194,8 +196,8 @@ def ranking(done: Iterable[Trial]) -> list[Ranked]:
     return sorted(ranked, key=lambda entry: -entry.mean)
 
 
-def worth(ranked: Sequence[Ranked]) -> Table:
-    """What each single choice is worth: the best place and the mean score of the hypotheses that make it.
+def score_by_choice(ranked: Sequence[Ranked]) -> Table:
+    """For each single choice the best place and the mean score of the hypotheses that make it.
 
     Parameters
     ----------

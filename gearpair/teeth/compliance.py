@@ -72,7 +72,7 @@ def tooth_compliance(tooth: ToothProfile, roll: ArrayLike, poisson_ratio: float)
 
     Examples
     --------
-    >>> from gearpair.spurpair import SpurPair
+    >>> from gearpair.teeth.spurpair import SpurPair
     >>> tooth = ToothProfile(SpurPair().pinion)
     >>> [round(float(part), 3) for part in tooth_compliance(tooth, 0.364, 0.3)]
     [0.456, 1.947, 0.061]
@@ -166,7 +166,7 @@ def foundation_compliance(tooth: ToothProfile, roll: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> from gearpair.spurpair import SpurPair
+    >>> from gearpair.teeth.spurpair import SpurPair
     >>> round(float(foundation_compliance(ToothProfile(SpurPair().pinion), 0.364)), 3)
     5.121
     """
@@ -184,7 +184,7 @@ def in_foundation_range(tooth: ToothProfile) -> bool:
 
     Examples
     --------
-    >>> from gearpair.spurpair import SpurPair
+    >>> from gearpair.teeth.spurpair import SpurPair
     >>> in_foundation_range(ToothProfile(SpurPair().pinion))
     True
     """

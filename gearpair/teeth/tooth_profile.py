@@ -48,7 +48,7 @@ class ToothProfile:
 
     Examples
     --------
-    >>> from gearpair.spurpair import SpurPair
+    >>> from gearpair.teeth.spurpair import SpurPair
     >>> tooth = ToothProfile(SpurPair().pinion, "trochoid")
     >>> round(tooth.clamp_radius, 3), round(tooth.clamp_half_angle, 4)
     (15.75, 0.0886)
@@ -111,7 +111,7 @@ class ToothProfile:
 
         Examples
         --------
-        >>> from gearpair.spurpair import SpurPair
+        >>> from gearpair.teeth.spurpair import SpurPair
         >>> y, h, _, _ = ToothProfile(SpurPair().pinion).involute(0.364)
         >>> round(float(y), 3), round(float(h), 3)
         (16.982, 0.785)
@@ -143,7 +143,7 @@ class ToothProfile:
 
         Examples
         --------
-        >>> from gearpair.spurpair import SpurPair
+        >>> from gearpair.teeth.spurpair import SpurPair
         >>> tooth = ToothProfile(SpurPair().pinion)
         >>> y, h, _, _ = tooth.fillet(0.0)
         >>> round(float(np.hypot(y, h)), 3)
