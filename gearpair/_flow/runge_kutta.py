@@ -12,6 +12,7 @@ import numpy as np
 
 from ._kernel import kernel
 from .cells import Parameters
+from .closed_form import AMPLITUDE, ORDER, PHASE
 
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
 STAGES = np.array(
@@ -48,6 +49,9 @@ COMPLETE, STEP_TOO_SMALL, TOO_MANY_STEPS = 0, 1, 2
 def acceleration(p, tau, x, v):
     """X'' of oscillator `p` at (tau, x, v)."""
     force = p.mean_force + p.error_amplitude * p.mesh_frequency**2 * np.sin(p.mesh_frequency * tau + p.error_phase)
+    for h in p.harmonics:
+        rate = h[ORDER] * p.mesh_frequency
+        force += h[AMPLITUDE] * rate * rate * np.sin(rate * tau + h[PHASE])
     force -= 2.0 * p.damping_ratio * v
     gap = x - 1.0 if x > 1.0 else x + 1.0 if x < -1.0 else 0.0
     if gap == 0.0:
@@ -179,5 +183,5 @@ def integrate_rows(first, last, lanes, carry, n_periods, rtol, atol, max_steps, 
         if carry and i > 0 and status[i - 1] == COMPLETE:
             x, v = points[i - 1, -1, 0], points[i - 1, -1, 1]
         s = lanes.scalars[i]
-        p = Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i])
+        p = Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i], lanes.harmonics[i])
         status[i], _steps, calls[i] = integrate(p, x, v, n_periods, rtol, atol, max_steps, points[i])
