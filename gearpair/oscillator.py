@@ -60,8 +60,8 @@ class Oscillator:
     stiffness : StiffnessWave
         k(tau) over the mesh period; the article's printed rectangle by default.
     harmonics : sequence of (order, amplitude, phase)
-        What the transmission error has besides its first harmonic: orders n from 2 to 200, amplitudes F_n = e_n / b_h of
-        at least 0, phases in radians, as `Harmonic`.
+        What the transmission error has besides its first harmonic: orders n from 2 to 200, amplitudes
+        F_n = e_n / b_h of at least 0, phases in radians, as `Harmonic`.
 
     Raises
     ------
@@ -169,7 +169,7 @@ class Oscillator:
         raise ValueError(f"unknown parameter {name!r}; the parameters are {', '.join(self.parameters)}")
 
     def force(self, tau: ArrayLike) -> NDArray[np.float64]:
-        """The right-hand side ``F_m + F_ah Omega^2 sin(Omega tau + phi)`` (and harmonics) at times `tau` (any shape)."""
+        """The right-hand side ``F_m + F_ah Omega^2 sin(Omega tau + phi)``, with harmonics, at `tau` (any shape)."""
         angle = self.mesh_frequency * np.asarray(tau, dtype=float) + self.error_phase
         total = self.mean_force + self.error_amplitude * self.mesh_frequency**2 * np.sin(angle)
         for order, amplitude, phase in self.harmonics:
