@@ -192,6 +192,7 @@ class Reference:
     v: mpf
     crossings: list = field(default_factory=list)
     pieces: list = field(default_factory=list)
+    segments: list = field(default_factory=list)  # (Piece, region, stiffness, duration)
 
     @property
     def monodromy(self):
@@ -239,6 +240,7 @@ def mpmath_period(osc: gp.Oscillator, x: float, v: float) -> Reference:
             h = end - tau if found is None else found[0]
             out.x, out.v = piece.derivative(0, h), piece.derivative(1, h)
             out.pieces.append(piece.matrix(h))
+            out.segments.append((piece, region, mpf(level), h))
             tau += h
             if found is None:
                 break

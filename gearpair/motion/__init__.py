@@ -3,6 +3,7 @@
 from gearpair.motion.datasets import symbol
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.initial_conditions import attractor_names, attractor_states, basins, motion_shares
+from gearpair.motion.measures import ImpactMeasures, impact_measures
 from gearpair.motion.names import motion_name, motion_names
 from gearpair.motion.ranges import MotionRange, follow, found_ranges, motion_ranges, range_of, representatives
 from gearpair.motion.settling import Status, transient_periods
@@ -14,6 +15,7 @@ from gearpair.motion.trajectories import Impacts, Trajectory, stroboscopic_map, 
 from gearpair.motion.zero_one import zero_one_test
 
 __all__ = [
+    "ImpactMeasures",
     "ImpactState",
     "Impacts",
     "MotionRange",
@@ -26,6 +28,7 @@ __all__ = [
     "basins",
     "follow",
     "found_ranges",
+    "impact_measures",
     "impact_state",
     "lyapunov_exponents",
     "motion_name",
