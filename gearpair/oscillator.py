@@ -177,6 +177,14 @@ class Oscillator:
             total = total + amplitude * rate**2 * np.sin(rate * np.asarray(tau, dtype=float) + phase)
         return total
 
+    def error(self, tau: ArrayLike) -> NDArray[np.float64]:
+        """The transmission error over half the backlash, ``F_ah sin(Omega tau + phi)`` with harmonics, at `tau`."""
+        angle = self.mesh_frequency * np.asarray(tau, dtype=float)
+        total = self.error_amplitude * np.sin(angle + self.error_phase)
+        for order, amplitude, phase in self.harmonics:
+            total = total + amplitude * np.sin(order * angle + phase)
+        return total
+
     @cached_property
     def _flow_parameters(self) -> Parameters:
         """What the kernels take: plain floats and arrays."""
@@ -197,14 +205,14 @@ class Oscillator:
         return build_cells(self._flow_parameters)
 
 
-def check_harmonics(name: str, harmonics: Any) -> tuple[Harmonic, ...]:
-    """`harmonics` as named tuples, or a ValueError that says which is wrong."""
+def check_harmonics(name: str, harmonics: Any, lowest: int = 2) -> tuple[Harmonic, ...]:
+    """`harmonics` of orders from `lowest` as named tuples, or a ValueError that says which is wrong."""
     checked: list[Harmonic] = []
     for i, each in enumerate(harmonics):
         if np.shape(each) not in ((2,), (3,)):
             raise ValueError(f"{name}[{i}] must be (order, amplitude, phase), got {each!r}")
         given = Harmonic(*each)
-        order = check_count(f"{name}[{i}] order", given.order, at_least=2)
+        order = check_count(f"{name}[{i}] order", given.order, at_least=lowest)
         check_number(f"{name}[{i}] order", order, at_most=LARGEST_ORDER)
         amplitude = check_number(f"{name}[{i}] amplitude", given.amplitude, at_least=0.0)
         checked.append(Harmonic(order, amplitude, check_number(f"{name}[{i}] phase", given.phase)))

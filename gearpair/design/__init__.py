@@ -1,0 +1,18 @@
+"""A real drive over its speeds: the chart, what changes it, the standard's factor beside it, and rattle without load."""
+
+from gearpair.design.charts import speed_chart
+from gearpair.design.dynamic_factor import IsoDynamicFactor, iso_dynamic_factor
+from gearpair.design.jumps import Jump, find_jumps
+from gearpair.design.linear import LinearResponse, linear_response
+from gearpair.design.loads import measure_motion
+
+__all__ = [
+    "IsoDynamicFactor",
+    "Jump",
+    "LinearResponse",
+    "find_jumps",
+    "iso_dynamic_factor",
+    "linear_response",
+    "measure_motion",
+    "speed_chart",
+]
