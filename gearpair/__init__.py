@@ -1,7 +1,7 @@
 """Nonlinear dynamics of a spur gear pair with backlash and time-varying mesh stiffness.
 
 Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`. What is not here is in the folder that
-its subject names: `teeth`, `motion`, `bifurcations`, `design`, `methods`, `article`, `plotting`, and the tables in `tables`.
+its subject names: `teeth`, `motion`, `bifurcations`, `design`, `methods`, `article`, `plotting`; tables in `tables`.
 """
 
 import importlib

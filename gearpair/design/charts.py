@@ -59,8 +59,8 @@ def speed_chart(
         Over ``(run, speed)``, the run being ``"up"``, ``"down"`` or ``"worst"`` (the motion with the largest tooth
         force of all that were found at that speed): ``motion``, ``period``, ``impact_state``, ``dte_rms``,
         ``dte_peak_to_peak`` (um), ``mesh_force``, ``tooth_force`` (N), ``dynamic_factor``, ``time_apart``,
-        ``impact_rate`` (1/s) and ``impact_velocity`` (mm/s). Over ``speed``: ``n_motions``, ``worst_share`` of the starts
-        that leads to the worst motion, ``linear_factor`` and ``linear_rms`` (um) of `linear_response`,
+        ``impact_rate`` (1/s) and ``impact_velocity`` (mm/s). Over ``speed``: ``n_motions``, ``worst_share`` of the
+        starts that leads to the worst motion, ``linear_factor`` and ``linear_rms`` (um) of `linear_response`,
         ``mesh_frequency`` (dimensionless). Over ``jump``: ``jump_speed`` (rpm), ``jump_run``, ``jump_kind``,
         ``jump_from`` and ``jump_to``, see `find_jumps`.
 
@@ -72,8 +72,8 @@ def speed_chart(
     Notes
     -----
     The dynamic transmission error is ``r_b1 theta1 - r_b2 theta2 = x + e``. The mesh force is the elastic one,
-    ``k_h f(x)``; the tooth force is the share of it that the most loaded pair of teeth carries (nan where the drive has no
-    `mesh`). The dynamic factor is the largest mesh force over the mean force.
+    ``k_h f(x)``; the tooth force is the share of it that the most loaded pair of teeth carries (nan where the drive
+    has no `mesh`). The dynamic factor is the largest mesh force over the mean force.
 
     Examples
     --------
@@ -88,18 +88,14 @@ def speed_chart(
     n_starts = check_count("n_starts", n_starts, at_least=0)
     oscillators = oscillators_at(drive, speeds)
     up, down = carried_runs([oscillators], n_transient, progress=progress)[0]
-    settings = settle_settings(n_transient)
-    points = np.tile(spread_starts(oscillators[0], n_starts), (len(speeds), 1))
-    lanes = [osc for osc in oscillators for _ in range(n_starts)]
-    started = settle_lanes(lanes, points, settings, progress=progress) if n_starts else None
+    started = settled_starts(oscillators, n_starts, n_transient, progress=progress)
     columns: dict[str, list[list[Any]]] = {
         name: [[], [], []] for name in ("motion", "period", "impact_state", *MEASURES)
     }
     n_motions, worst_share = [], []
-    for i, osc in enumerate(oscillators):
+    for i in range(len(speeds)):
         found, counts = [up[i]], [0]
-        rows = [] if started is None else range(i * n_starts, (i + 1) * n_starts)
-        for state, count in [(down[i], 0), *((describe(osc, started, row), 1) for row in rows)]:
+        for state, count in [(down[i], 0), *((each, 1) for each in started[i])]:
             same = [j for j, other in enumerate(found) if same_motion(other, state)]
             if same:
                 counts[same[0]] += count
@@ -164,11 +160,24 @@ def carried_runs(
     return [(states[i : i + n], states[i + n : i + 2 * n][::-1]) for i in range(0, len(states), 2 * n)]
 
 
+def settled_starts(
+    oscillators: list[Oscillator], n_starts: int, n_transient: int | None, *, progress: bool = False
+) -> list[list[SteadyState]]:
+    """The motions that `spread_starts` lead to, for each oscillator."""
+    if not n_starts:
+        return [[] for _ in oscillators]
+    lanes = [osc for osc in oscillators for _ in range(n_starts)]
+    starts = np.concatenate([spread_starts(osc, n_starts) for osc in oscillators])
+    out = settle_lanes(lanes, starts, settle_settings(n_transient), progress=progress)
+    states = [describe(osc, out, i) for i, osc in enumerate(lanes)]
+    return [states[i : i + n_starts] for i in range(0, len(states), n_starts)]
+
+
 def spread_starts(osc: Oscillator, n: int) -> NDArray[np.float64]:
     """Starts spread evenly over a rectangle (an additive recurrence of low discrepancy), shape (n, 2).
 
-    X reaches from as far beyond the coast flank as the static deflection, at least 1, to three times that beyond the drive
-    flank; X' up to one and a half times it, each way.
+    X reaches from as far beyond the coast flank as the static deflection, at least 1, to three times that beyond the
+    drive flank; X' up to one and a half times it, each way.
     """
     size = max(1.0, abs(osc.mean_force) / osc.stiffness.mean)
     share = np.mod(0.5 + np.arange(1, n + 1)[:, None] * np.array([0.7548776662466927, 0.5698402909980532]), 1.0)
@@ -208,18 +217,15 @@ def _dataset(
         ("mesh_frequency", ratios, "mesh frequency over the natural frequency", "1"),
     ):
         variables[name] = ("speed", np.array(values), {"long_name": long_name, "units": units})
-    variables["jump_speed"] = (
-        "jump",
-        np.array([jump.mesh_frequency * unit for jump in jumps]),
-        {"long_name": "speed of the jump", "units": "rpm"},
-    )
-    for name, values in (
+    at = np.array([jump.mesh_frequency * unit for jump in jumps])
+    variables["jump_speed"] = ("jump", at, {"long_name": "speed of the jump", "units": "rpm"})
+    for name, words in (
         ("run", [jump.run for jump in jumps]),
         ("kind", [jump.kind for jump in jumps]),
         ("from", [jump.before for jump in jumps]),
         ("to", [jump.after for jump in jumps]),
     ):
-        variables[f"jump_{name}"] = ("jump", np.array(values, dtype=str), {"long_name": f"jump: {name}", "units": "1"})
+        variables[f"jump_{name}"] = ("jump", np.array(words, dtype=str), {"long_name": f"jump: {name}", "units": "1"})
     return xr.Dataset(
         variables,
         {"run": list(RUNS), "speed": ("speed", speeds, {"long_name": "speed of the pinion", "units": "rpm"})},

@@ -80,10 +80,9 @@ def iso_dynamic_factor(
 
     Notes
     -----
-    The standard's text was not at hand. The formulas are those of ISO 6336-1:2006, 6.4 and 6.5, its equations (6), (9),
-    (11) to (17) and (20) to (22), as a public implementation gives them with these numbers (the file
-    ``Iso6336DynamicFactor.cs`` of github.com/hakangunes258/mekanika, commit c44c3eb); nothing here has been compared with
-    the standard's own pages::
+    The standard's text was not at hand. The formulas are those of ISO 6336-1:2006, clause 6, equations (6), (9), (11)
+    to (17) and (20) to (22), as a public implementation gives them with these numbers (``Iso6336DynamicFactor.cs``
+    of github.com/hakangunes258/mekanika, commit c44c3eb); nothing has been compared with the standard's own pages::
 
         n_E1 = 30000 / (pi z1) sqrt(c_gamma / m_red),   N = n1 / n_E1
         N_S = 0.85, below 100 N/mm: 0.5 + 0.35 sqrt((F_t K_A / b) / 100)
@@ -92,8 +91,8 @@ def iso_dynamic_factor(
         K_v = C_v1 B_p + C_v2 B_f + C_v4 B_k + 1              up to 1.15
         K_v = C_v5 B_p + C_v6 B_f + C_v7                      from 1.5, linear in N from 1.15 to 1.5
 
-    c' and c_gamma are those of `iso_stiffness`. m_red is the equivalent mass of the drive over the face width, with what
-    turns with the gears, where the standard's formula takes discs.
+    c' and c_gamma are those of `iso_stiffness`. m_red is the equivalent mass of the drive over the face width, with
+    what turns with the gears, where the standard's formula takes discs.
 
     Examples
     --------
@@ -102,7 +101,7 @@ def iso_dynamic_factor(
     ...     transmission_error_um=5.0, damping_ratio=0.05)
     >>> iso = iso_dynamic_factor(drive, [1000.0, 8000.0, 20000.0], base_pitch_um=8.0, profile_um=8.0)
     >>> iso.k_v.round(2)
-    array([1.14, 2.49, 1.98])
+    array([1.1 , 2.61, 1.78])
     """
     if drive.mesh is None:
         raise ValueError("drive must come from GearDrive.from_pair: K_v needs the teeth, and this one has none")

@@ -12,6 +12,8 @@ from gearpair.motion.names import motion_name
 from gearpair.motion.steady import SteadyState
 
 SMOOTH = 0.1  # change of X_min and X_max, relative to their distance, that no jump is needed for
+ARRIVED = 1e-3  # how near to the next motion a branch has to lead to be its own
+MAX_STEPS = 300
 ON_GRID = "between speeds"  # the kind of a jump that no continuation locates
 
 
@@ -68,13 +70,13 @@ def find_jumps(up: list[SteadyState], down: list[SteadyState]) -> list[Jump]:
     return sorted(found, key=lambda jump: (jump.mesh_frequency, jump.run))
 
 
-def _differ(before: SteadyState, after: SteadyState) -> bool:
+def _differ(before: SteadyState, after: SteadyState, smooth: float = SMOOTH) -> bool:
     """Whether two neighbours of a run are so unlike that a jump may lie between them."""
     if before.period is None and after.period is None:
         return before.status != after.status
     size = max(before.x_max - before.x_min, after.x_max - after.x_min)
     change = max(abs(before.x_min - after.x_min), abs(before.x_max - after.x_max))
-    return not change <= SMOOTH * size
+    return not change <= smooth * size
 
 
 def _located(run: str, before: SteadyState, after: SteadyState) -> Jump | None:
@@ -83,38 +85,24 @@ def _located(run: str, before: SteadyState, after: SteadyState) -> Jump | None:
     middle = Jump(run, 0.5 * (here + there), ON_GRID, *names)
     if before.period is None:
         return middle
-    orbit = periodic_orbit(before.oscillator, *before.points[0], before.period)
+    x, v = before.points[0].tolist()
+    orbit = periodic_orbit(before.oscillator, x, v, before.period)
     if not orbit.converged:
         return middle
-    branch = continue_orbit(orbit, "mesh_frequency", min(here, there), max(here, there), max_steps=300)
+    branch = continue_orbit(orbit, "mesh_frequency", min(here, there), max(here, there), max_steps=MAX_STEPS)
     start = int(np.argmin(np.abs(branch.values - here)))
-    ahead = (
-        slice(start, None)
-        if branch.values[-1] != here and _leads(branch.values, start, there)
-        else slice(start, None, -1)
-    )
+    ahead = slice(start, None)
+    if start and (branch.values[start - 1] - here) * (there - here) > 0.0:  # the branch is walked the other way
+        ahead = slice(start, None, -1)
     stable, values = branch.stable[ahead], branch.values[ahead]
-    lost = int(np.argmin(stable))
-    if stable[lost]:  # stable all the way: the change was continuous, though steep, unless the run is elsewhere
-        arrived = branch.points[ahead][-1]
-        apart = np.abs(arrived - after.points[0]).max(axis=1).min() if after.period else np.inf
-        return None if apart < 1e-3 else middle
-    kinds = [b for b in branch.bifurcations if b.kind != "grazing"] or branch.bifurcations
-    if not kinds:
+    if np.all(stable):  # a change that is steep but continuous, unless the run went elsewhere
+        arrived = np.abs(branch.points[ahead][-1] - after.points[0]).max(axis=1).min()
+        return None if after.period and arrived < ARRIVED else middle
+    lost = values[int(np.argmin(stable))]
+    ends = [each for each in branch.bifurcations if each.kind != "grazing"] or branch.bifurcations
+    if not ends:
         return middle
-    end = min(kinds, key=lambda b: abs(b.value - values[lost]))
-    if end.kind == "flip" and after.period == 2 * before.period and not _apart(before, after):
+    end = min(ends, key=lambda each: abs(each.value - lost))
+    if end.kind == "flip" and after.period == 2 * before.period and not _differ(before, after, 3.0 * SMOOTH):
         return None
     return Jump(run, end.value, end.kind, *names)
-
-
-def _leads(values: np.ndarray, start: int, there: float) -> bool:
-    """Whether the branch, as it is walked, leads from `start` towards the value `there`."""
-    if start + 1 >= len(values):
-        return False
-    return bool((values[start + 1] - values[start]) * (there - values[start]) > 0.0)
-
-
-def _apart(before: SteadyState, after: SteadyState) -> bool:
-    size = before.x_max - before.x_min
-    return max(abs(before.x_min - after.x_min), abs(before.x_max - after.x_max)) > 3.0 * SMOOTH * size
