@@ -10,7 +10,7 @@ from gearpair.article.comparison import (
     nearest,
     nearness,
 )
-from gearpair.article.existence import Reached, reached
+from gearpair.article.existence import STARTS, Reached, reached
 from gearpair.article.items import (
     boundary_items,
     chaos_items,
@@ -44,6 +44,7 @@ __all__ = [
     "Protocol",
     "Ranked",
     "Reached",
+    "STARTS",
     "SWAPPED",
     "Score",
     "Trial",

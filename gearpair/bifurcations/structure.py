@@ -117,4 +117,8 @@ def _edge(branch: Branch, i: int, j: int) -> float:
     low, high = sorted(branch.values[[i, j]].tolist())
     margin = high - low
     near = [b.value for b in branch.bifurcations if low - margin <= b.value <= high + margin]
-    return min(near, key=lambda value: abs(value - 0.5 * (low + high))) if near else 0.5 * (low + high)
+    if near:
+        return min(near, key=lambda value: abs(value - 0.5 * (low + high)))
+    # A branch that merges with a shorter orbit ends on the flip, at a multiplier of one to rounding.
+    ends = [k for k in (i, j) if k in (0, len(branch.values) - 1)]
+    return float(branch.values[ends[0]]) if ends else 0.5 * (low + high)
