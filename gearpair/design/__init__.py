@@ -7,12 +7,14 @@ from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import LinearResponse, linear_response
 from gearpair.design.loads import measure_motion
 from gearpair.design.sensitivities import sensitivity
+from gearpair.design.verdicts import SpeedRange, speeds_to_avoid
 
 __all__ = [
     "IdleRattle",
     "IsoDynamicFactor",
     "Jump",
     "LinearResponse",
+    "SpeedRange",
     "find_jumps",
     "idle_oscillator",
     "idle_rattle",
@@ -21,4 +23,5 @@ __all__ = [
     "measure_motion",
     "sensitivity",
     "speed_chart",
+    "speeds_to_avoid",
 ]

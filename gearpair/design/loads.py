@@ -8,6 +8,7 @@ import numpy as np
 
 from gearpair.drive import GearDrive
 from gearpair.motion.measures import impact_measures
+from gearpair.motion.same_orbit import lies_on
 from gearpair.motion.settling import Status
 from gearpair.motion.steady import SteadyState
 from gearpair.motion.trajectories import trajectory
@@ -25,7 +26,6 @@ MEASURES: Mapping[str, tuple[str, str]] = {
 }
 SAMPLES_PER_PERIOD = 256
 CHAOTIC_PERIODS = 200  # mesh periods over which a motion that is not periodic is measured
-SAME = 1e-6  # section points of two motions that are one
 
 
 def measure_motion(drive: GearDrive, state: SteadyState) -> dict[str, float]:
@@ -93,4 +93,4 @@ def same_motion(a: SteadyState, b: SteadyState) -> bool:
     """Whether two settled motions of one oscillator are one; those that are not periodic are, by their status."""
     if a.status != b.status or a.period != b.period:
         return False
-    return a.period is None or bool(np.all(np.abs(a.points[0] - b.points[0]) < SAME))
+    return a.period is None or lies_on(a.points[0], b.points)
