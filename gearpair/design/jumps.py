@@ -72,8 +72,8 @@ def find_jumps(up: list[SteadyState], down: list[SteadyState]) -> list[Jump]:
 
 def _differ(before: SteadyState, after: SteadyState, smooth: float = SMOOTH) -> bool:
     """Whether two neighbours of a run are so unlike that a jump may lie between them."""
-    if before.period is None and after.period is None:
-        return before.status != after.status
+    if before.period is None and after.period is None and before.impact_state and after.impact_state:
+        return False  # chaos, whether its exponent was resolved or not
     size = max(before.x_max - before.x_min, after.x_max - after.x_min)
     change = max(abs(before.x_min - after.x_min), abs(before.x_max - after.x_max))
     return not change <= smooth * size

@@ -63,10 +63,11 @@ def dynamic_factors(
     worst, shown = factor.sel(run="worst").values, np.zeros(len(speed), bool)
     for run in ("up", "down"):
         shown |= np.isclose(worst, factor.sel(run=run).values, rtol=1e-6, equal_nan=True)
-    ax.plot(
-        speed[~shown], worst[~shown], linestyle="", marker="o", markersize=3, markerfacecolor="none",
-        color=OTHER_INK, label="worst found from other starts",
-    )  # fmt: skip
+    if not shown.all():
+        ax.plot(
+            speed[~shown], worst[~shown], linestyle="", marker="o", markersize=3, markerfacecolor="none",
+            color=OTHER_INK, label="worst found from other starts",
+        )  # fmt: skip
     for run, style, width in (("up", "-", 1.8), ("down", (0, (2.5, 1.2)), 1.4)):
         values, states = factor.sel(run=run).values, chart.impact_state.sel(run=run).values
         ax.plot([], [], color=INK, linestyle=style, linewidth=width, label=f"run {run}")
@@ -119,10 +120,13 @@ def _strips(ax: Axes, chart: xr.Dataset) -> None:
         bottom = 1.0 - (k + 1) * STRIP
         for left, right, state in zip(edges[:-1], edges[1:], chart.impact_state.sel(run=run).values, strict=True):
             present.append(str(state))
-            ax.axvspan(left, right, bottom, bottom + 0.85 * STRIP, color=IMPACT_COLOURS[str(state)], linewidth=0)
+            ax.axvspan(
+                left, right, bottom, bottom + 0.85 * STRIP, color=IMPACT_COLOURS[str(state)], linewidth=0, zorder=4
+            )
         ax.text(
-            0.004, bottom + 0.4 * STRIP, f"run {run}", transform=ax.transAxes, fontsize=7, va="center", color="#333333"
-        )
+            0.004, bottom + 0.4 * STRIP, f"run {run}", transform=ax.transAxes, fontsize=7, va="center", color="#333333",
+            zorder=5,
+        )  # fmt: skip
     handles = [
         Patch(facecolor=colour, edgecolor="#999999", linewidth=0.5, label=IMPACT_NAMES[state])
         for state, colour in IMPACT_COLOURS.items()
