@@ -259,13 +259,13 @@ def harmonic_balance_folds(osc):
     """The folds (run up, run down) of the bent resonance of constant stiffness, by one-term harmonic balance.
 
     X = m + a cos(theta): the mean of f(X) is the mean force and gives m; its first harmonic over a is the stiffness
-    k(a). Then ``a^2 ((k - w^2)^2 + (2 zeta w)^2) = e^2 w^4``: two frequencies for each a, one each side of the backbone.
+    k(a). Then ``a^2 ((k - w^2)^2 + (2 zeta w)^2) = e^2 w^4``: two frequencies for each a, beside the backbone.
     """
-    theta = np.linspace(0.0, 2 * np.pi, 20001)[:-1]
+    theta = np.linspace(0.0, 2 * np.pi, 2001)[:-1]
     left, right = [], []
-    for a in np.linspace(0.01, 2.0, 800):
+    for a in np.linspace(0.02, 1.5, 600):
         low, high = 1.0 - a - 1.0, 3.0
-        for _ in range(60):  # bisection for m
+        for _ in range(45):  # bisection for m
             m = 0.5 * (low + high)
             pressed = np.clip(m + a * np.cos(theta) - 1.0, 0.0, None)
             low, high = (m, high) if pressed.mean() < osc.mean_force else (low, m)
@@ -279,7 +279,7 @@ def harmonic_balance_folds(osc):
 
 
 def test_the_softening_folds_lie_where_harmonic_balance_puts_them():
-    """One harmonic gives both folds to a few per cent, and no better: its errors are shown and bounded both ways."""
+    """One harmonic gives both folds to within a per cent, and no better: its errors are shown and bounded both ways."""
     osc = gp.Oscillator(mean_force=0.16, error_amplitude=0.05, damping_ratio=0.06, stiffness=SINGLE)
     omegas = np.linspace(0.6, 1.1, 51)
     ups, downs = carried_runs([[osc.replace(mesh_frequency=float(w)) for w in omegas]], None)[0]
@@ -288,7 +288,7 @@ def test_the_softening_folds_lie_where_harmonic_balance_puts_them():
     for run, estimate in zip(("up", "down"), harmonic_balance_folds(osc), strict=True):
         error = estimate / exact[run].mesh_frequency - 1.0
         print(f"fold run {run}: exact {exact[run].mesh_frequency:.5f}, harmonic balance {estimate:.5f}, {error:+.2%}")
-        assert 1e-4 < abs(error) < 0.05
+        assert 1e-4 < abs(error) < 0.01
 
 
 def test_the_tongue_of_the_linear_problem_is_where_contact_is_lost():

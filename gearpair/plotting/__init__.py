@@ -26,7 +26,7 @@ from gearpair.plotting.methods import (
 )
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states, period_map
-from gearpair.plotting.speed_chart import dynamic_factors, rattle, tooth_loads, tornado
+from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, rattle, tooth_loads, tornado
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.teeth import (
     compliance_stack,
@@ -42,6 +42,7 @@ from gearpair.plotting.teeth import (
 from gearpair.plotting.waves import harmonics, stiffness_wave
 
 __all__ = [
+    "CHANGES",
     "MOTION_COLOURS",
     "STYLE",
     "add_motion_legend",

@@ -18,6 +18,7 @@ from gearpair.plotting.style import INK, new_axes
 STATE_INK: Mapping[str, str] = {"none_drive": "#1F3A5F", "single_drive": "#D55E00", "double": "#54278F"}
 OTHER_INK = "#8C8577"
 GREY = "#9A9A9A"
+LEAP = 0.25  # change from one speed to the next, of the largest factor, that is drawn as a jump
 STRIP = 0.07  # height of a run's strip of impact states, in shares of the axes
 CHANGES: Mapping[str, str] = {
     "pinion_torque_nm": "torque",
@@ -57,7 +58,10 @@ def dynamic_factors(
     ax = new_axes(ax, 4.6)
     speed = chart.speed.values
     factor = chart.dynamic_factor
-    ax.plot(speed, chart.linear_factor.values, color=GREY, linewidth=1.0, label="linear response", zorder=1)
+    top = np.nanmax([np.nanmax(factor.values), 1.2])
+    linear = chart.linear_factor.values  # cut off where the strips begin
+    linear = np.where(linear < 0.8 + (top - 0.8) * 1.12, linear, np.nan)
+    ax.plot(speed, linear, color=GREY, linewidth=1.0, label="linear response", zorder=1)
     if iso is not None:
         ax.plot(iso.speed_rpm, iso.k_v, color=GREY, linestyle=(0, (5, 2)), linewidth=1.3, label="ISO 6336-1, $K_v$")
     worst, shown = factor.sel(run="worst").values, np.zeros(len(speed), bool)
@@ -74,7 +78,6 @@ def dynamic_factors(
         _by_state(ax, speed, values, states, style, width)
     if jumps:
         _mark_jumps(ax, chart)
-    top = np.nanmax([np.nanmax(worst), 1.2])
     ax.set(xlabel="speed of the pinion (rpm)", ylabel="largest mesh force / mean force", xlim=(speed[0], speed[-1]))
     ax.set_ylim(0.8, 0.8 + (top - 0.8) * 1.35)
     _strips(ax, chart)
@@ -84,13 +87,17 @@ def dynamic_factors(
 
 def _by_state(ax: Axes, speed: np.ndarray, values: np.ndarray, states: np.ndarray, style: object, width: float) -> None:
     """A line that is broken where the run jumps, coloured by the impact state at each speed's left end."""
-    jump = np.abs(np.diff(values)) > 0.25 * np.nanmax(values)
-    for i in range(len(speed) - 1):
-        if not jump[i]:
-            ax.plot(
-                speed[i : i + 2], values[i : i + 2], linestyle=style, linewidth=width, zorder=3,
-                color=STATE_INK.get(str(states[i]), OTHER_INK), solid_capstyle="butt",
-            )  # fmt: skip
+    jump = np.abs(np.diff(values)) > LEAP * np.nanmax(values)
+    first = 0
+    for i in range(1, len(speed) + 1):
+        if i < len(speed) and states[i] == states[first] and not jump[i - 1]:
+            continue
+        last = i + 1 if i < len(speed) and not jump[i - 1] else i  # as far as the next piece, unless the run jumps
+        ax.plot(
+            speed[first:last], values[first:last], linestyle=style, linewidth=width, zorder=3,
+            color=STATE_INK.get(str(states[first]), OTHER_INK), solid_capstyle="butt",
+        )  # fmt: skip
+        first = i
 
 
 def _mark_jumps(ax: Axes, chart: xr.Dataset) -> None:
@@ -100,7 +107,7 @@ def _mark_jumps(ax: Axes, chart: xr.Dataset) -> None:
         values = chart.dynamic_factor.sel(run=str(run)).values
         after = int(np.clip(np.searchsorted(speed, at), 1, len(speed) - 1))
         ends = values[[after - 1, after]] if run == "up" else values[[after, after - 1]]
-        if not abs(ends[1] - ends[0]) > 0.25 * np.nanmax(values):
+        if not abs(ends[1] - ends[0]) > LEAP * np.nanmax(values):
             continue
         ax.annotate(
             "", (at, ends[1]), (at, ends[0]), arrowprops={"arrowstyle": "-|>", "color": "#333333", "linewidth": 0.9}
@@ -173,7 +180,9 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]
     return axes
 
 
-def tornado(found: xr.Dataset, outcome: str = "dynamic_factor", ax: Axes | None = None) -> Axes:
+def tornado(
+    found: xr.Dataset, outcome: str = "dynamic_factor", ax: Axes | None = None, *, sort_by: str | None = None
+) -> Axes:
     """What each change does to the worst of the speed range: one bar a change, the strongest on top.
 
     Parameters
@@ -182,6 +191,8 @@ def tornado(found: xr.Dataset, outcome: str = "dynamic_factor", ax: Axes | None 
         Of `gearpair.design.sensitivity`.
     outcome : {"dynamic_factor", "mesh_force", "time_apart", "impact_range"}
     ax : Axes, optional
+    sort_by : str, optional
+        The outcome that the bars are sorted by, `outcome` itself when not given.
 
     Returns
     -------
@@ -189,7 +200,8 @@ def tornado(found: xr.Dataset, outcome: str = "dynamic_factor", ax: Axes | None 
     """
     ax = new_axes(ax, 2.6)
     values, base = found[outcome].values, float(found[f"base_{outcome}"])
-    order = np.argsort(np.abs(values - base).max(axis=1))
+    sorting = sort_by or outcome
+    order = np.argsort(np.abs(found[sorting].values - float(found[f"base_{sorting}"])).max(axis=1).round(9))
     low_colour, high_colour = "#56B4E9", "#E69F00"
     for place, k in enumerate(order):
         for end, colour in ((0, low_colour), (1, high_colour)):
