@@ -51,6 +51,13 @@ class Settled(NamedTuple):
 
 
 @kernel
+def parameters_of(lanes, i):
+    """The oscillator of lane `i`."""
+    s = lanes.scalars[i]
+    return Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i], lanes.harmonics[i])
+
+
+@kernel
 def spectral_radius(m):
     """The larger modulus of the eigenvalues of a 2 x 2 matrix."""
     half = 0.5 * (m[0, 0] + m[1, 1])
@@ -180,7 +187,5 @@ def settle_rows(first, last, lanes, chain, max_period, n_exponent, out):
         x, v = lanes.starts[i, 0], lanes.starts[i, 1]
         if i % chain != 0 and out.status[i - 1] < GONE:
             x, v = out.final[i - 1, 0], out.final[i - 1, 1]
-        s = lanes.scalars[i]
-        p = Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i], lanes.harmonics[i])
-        cells = build_cells(p)
+        cells = build_cells(parameters_of(lanes, i))
         settle(cells, x, v, lanes.n_transient[i], max_period, n_exponent, out, i, series)

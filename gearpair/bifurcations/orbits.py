@@ -16,6 +16,7 @@ from gearpair._flow.march import march
 from gearpair._flow.tangent import newton
 from gearpair.bifurcations._cycle import describe_cycle
 from gearpair.motion.impacts import ImpactState, impact_state
+from gearpair.motion.names import Motion, periodic
 from gearpair.motion.same_orbit import lies_on
 from gearpair.motion.stability import multipliers_of
 from gearpair.motion.trajectories import check_start, check_starts
@@ -93,6 +94,11 @@ class PeriodicOrbit:
     def impact_state(self) -> ImpactState | None:
         """The impact state of the cycle; None where Newton's method did not converge."""
         return None if self.x_min is None or self.x_max is None else impact_state(self.x_min, self.x_max)
+
+    @property
+    def motion(self) -> Motion | None:
+        """Its period and impact state as one; None where Newton's method did not converge."""
+        return periodic(self.period, self.impact_state) if self.converged else None
 
     def __repr__(self) -> str:
         """One line; it says so where there is no orbit."""

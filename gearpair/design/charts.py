@@ -13,7 +13,6 @@ from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import linear_response
 from gearpair.design.loads import MEASURES, measure_motion, same_motion
 from gearpair.drive import GearDrive
-from gearpair.motion.names import motion_name
 from gearpair.motion.settling import SettleSettings, settle_lanes
 from gearpair.motion.steady import SteadyState, describe
 from gearpair.oscillator import Oscillator
@@ -109,7 +108,7 @@ def speed_chart(
         worst_share.append(counts[worst] / n_starts if n_starts else np.nan)
         for run, j in enumerate((0, down_at, worst)):
             state = found[j]
-            columns["motion"][run].append(motion_name(state.status, state.period))
+            columns["motion"][run].append(str(state.motion.kind))
             columns["period"][run].append(state.period or 0)
             columns["impact_state"][run].append(str(state.impact_state or ""))
             for name in MEASURES:

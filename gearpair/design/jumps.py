@@ -8,7 +8,6 @@ from itertools import pairwise
 import numpy as np
 
 from gearpair.bifurcations import continue_orbit, periodic_orbit
-from gearpair.motion.names import motion_name
 from gearpair.motion.steady import SteadyState
 
 SMOOTH = 0.1  # change of X_min and X_max, relative to their distance, that no jump is needed for
@@ -81,7 +80,7 @@ def _differ(before: SteadyState, after: SteadyState, smooth: float = SMOOTH) -> 
 
 def _located(run: str, before: SteadyState, after: SteadyState) -> Jump | None:
     here, there = before.oscillator.mesh_frequency, after.oscillator.mesh_frequency
-    names = [motion_name(state.status, state.period) for state in (before, after)]
+    names = [str(state.motion.kind) for state in (before, after)]
     middle = Jump(run, 0.5 * (here + there), ON_GRID, *names)
     if before.period is None:
         return middle
