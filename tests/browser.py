@@ -34,6 +34,7 @@ class Browser:
     """
 
     def __init__(self, profile: Path):
+        command = chromium()
         to_browser, from_browser = os.pipe(), os.pipe()
         ends = [fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, 10) for end in (to_browser[0], from_browser[1])]
 
@@ -44,7 +45,7 @@ class Browser:
         flags = ["--headless=new", "--no-sandbox", "--disable-gpu", "--remote-debugging-pipe", "--disable-extensions"]
         flags += ["--no-first-run", "--disable-background-networking", f"--user-data-dir={profile}", "about:blank"]
         self.process = subprocess.Popen(
-            [chromium(), *flags], preexec_fn=hand_over, pass_fds=(3, 4), stderr=subprocess.DEVNULL
+            [command, *flags], preexec_fn=hand_over, pass_fds=(3, 4), stderr=subprocess.DEVNULL
         )
         for end in (to_browser[0], from_browser[1], *ends):
             os.close(end)

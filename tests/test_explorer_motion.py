@@ -19,6 +19,7 @@ PERIODS = 4
 
 @pytest.fixture(scope="module", params=ENGINES)
 def run(request):
+    ENGINES[request.param]("() => 0", None)  # where it is missing, skip before anything is computed
     return ENGINES[request.param]
 
 
