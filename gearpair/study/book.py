@@ -184,8 +184,8 @@ def write_toc(source: Path, toc: Any) -> None:
 def _render(source: Path, output: Path, root: Path) -> Path:
     """Build the site, warnings as errors; return where it is."""
     code, told = run_jupyter_book(source, output, "--warningiserror", "--keep-going")
-    print(told.replace(str(source), str(root)), end="", file=sys.stderr)  # the sources that a user can mend
     if code:
+        print(told.replace(str(source), str(root)), end="", file=sys.stderr)  # the sources that a user can mend
         raise StudyError("the pages did not build without warnings (they are named above); the last book stays")
     return output / "_build" / "html"
 

@@ -7,7 +7,6 @@ import os
 import platform
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -74,12 +73,14 @@ def content_key(chapter: Chapter, values: Mapping[str, Any], lock: Path) -> str:
     return sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:24]
 
 
-@cache
-def library_digest() -> str:
-    """A digest of the library as it is imported here: its sources and data, of the study what executes chapters."""
+def library_digest(library: Path = LIBRARY) -> str:
+    """A digest of the library's sources and data, and of what in the study executes chapters.
+
+    Without an argument, of the library that is imported here.
+    """
     digest = sha256()
-    for path in sorted(LIBRARY.rglob("*")):
-        name = path.relative_to(LIBRARY).as_posix()
+    for path in sorted(library.rglob("*")):
+        name = path.relative_to(library).as_posix()
         if path.suffix in (".py", ".json") and (not name.startswith("study/") or name in MAKES):
             digest.update(name.encode() + b"\0" + sha256(path.read_bytes()).digest())
     return digest.hexdigest()

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import nbformat
 from bs4 import BeautifulSoup, Tag
 
 from gearpair.study.book import EXECUTED, Book, copy_sources, run_jupyter_book, write_toc
@@ -22,6 +23,7 @@ MATHJAX = "mathjax/tex-svg.js"  # the one of its scripts that loads nothing else
 STYLE = (
     "body{margin:0}main{max-width:60rem;margin:2rem auto;padding:0 1rem}img{max-width:100%}.headerlink{display:none}"
 )
+LINK = re.compile(r"\[([^\]]*)\]\((?:[./\w-]*/)?([\w-]+)\.ipynb(?:#[\w-]+)?\)")  # to another chapter
 PAGE = """<!DOCTYPE html>
 <html lang="en">
 <head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
@@ -59,9 +61,14 @@ def make_page(
     with claimed(output) as scratch:
         source = scratch / "source"
         copy_sources(book.root, source)
-        execute(chapter, source / EXECUTED / f"{chapter.name}.ipynb", values, progress=progress)
-        toc = book.toc()
-        write_toc(source, _without_chapters(toc, f"{EXECUTED}{chapter.name}"))
+        notebook = source / EXECUTED / f"{chapter.name}.ipynb"
+        executed = execute(chapter, notebook, values, progress=progress)
+        titles = {each.name: each.title for each in book.chapters()}
+        for cell in executed.cells:
+            if cell.cell_type == "markdown":
+                cell.source = LINK.sub(lambda link: link[1] or titles.get(link[2], link[2]), cell.source)
+        nbformat.write(executed, notebook)
+        write_toc(source, _without_chapters(book.toc(), f"{EXECUTED}{chapter.name}"))
         code, told = run_jupyter_book(source, scratch / "site")
         html = scratch / "site" / "_build" / "html"
         page = html / f"{EXECUTED}{chapter.name}.html"

@@ -113,7 +113,7 @@ def _head(variant: Variant) -> str:
     table = "\n".join(["| parameter | what it is | in the chapter | here |", "|---|---|---|---|", *rows])
     return (
         f"# {variant.title}\n\n{variant.why}\n\n"
-        f"This page is [the chapter]({variant.chapter.path.name}), computed again with other parameters. Figures, "
+        f"This page is the chapter [{variant.chapter.title}]({variant.chapter.path.name}), computed again with other parameters. Figures, "
         "tables and the numbers in the text are those of this variant; the words around them were written for the "
         f"chapter, and where they describe its parameters they do not hold here.\n\n{table}"
     )
