@@ -22,12 +22,12 @@ PATIENCE = 300.0  # what hangs is stopped; nothing is measured
 @pytest.fixture
 def waiting(small_book, tmp_path):
     """Start a run whose kernel writes its process id to `started` and then sleeps for as long as is asked."""
-    parameters = "started: str = ''  # a file\nseconds: float = 0.0  # of sleep"
-    write_notebook(small_book / "notebooks" / "small.ipynb", WAIT, parameters=parameters)
     started, processes = tmp_path / "started", []
 
-    def start(seconds):
-        words = ["run", "small", "-p", "started", str(started), "-p", "seconds", str(seconds), "-o", "out.ipynb"]
+    def start(seconds, command=None):
+        parameters = f"started: str = {str(started)!r}  # a file\nseconds: float = {seconds}  # of sleep"
+        write_notebook(small_book / "notebooks" / "small.ipynb", WAIT, parameters=parameters)
+        words = [command] if command else ["run", "small", "-o", "out.ipynb"]
         command = [sys.executable, "-m", "gearpair", "--root", str(small_book), *words]
         process = subprocess.Popen(
             command,
@@ -81,6 +81,17 @@ def test_a_stopped_run_stops_its_kernel_and_leaves_nothing(waiting, tmp_path, nu
     until(lambda: not alive(pid))
 
 
+def test_a_stopped_build_stops_its_kernels_and_leaves_nothing(waiting, small_book):
+    start, kernel = waiting
+    run = start(3600, "book")
+    pid = kernel()
+    run.terminate()
+    assert run.communicate(timeout=PATIENCE)[1].splitlines()[-1] == "gearpair: stopped"
+    assert run.returncode == 130
+    assert [path.name for path in (small_book / "_build").rglob("*")] == ["cache"]
+    until(lambda: not alive(pid))
+
+
 def test_what_a_killed_run_left_is_cleared_by_the_next_of_the_same_output(waiting, tmp_path):
     start, kernel = waiting
     run = start(3600)
@@ -126,7 +137,7 @@ def test_a_claim_is_one_at_a_time_and_cleared_of_what_was_left(tmp_path):
 def test_a_place_that_cannot_be_written_to_is_named(tmp_path):
     (tmp_path / "file").write_text("")
     with (
-        pytest.raises(StudyError, match="cannot write beside .*out; choose another output"),
+        pytest.raises(StudyError, match="cannot write beside .*/out: .*; choose another output"),
         claimed(tmp_path / "file" / "out"),
     ):
         pass

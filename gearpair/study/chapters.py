@@ -13,7 +13,7 @@ from __future__ import annotations
 import ast
 import io
 import tokenize
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -171,30 +171,29 @@ class Chapter:
         """The value of each parameter as the chapter has it."""
         return {parameter.name: parameter.default for parameter in self.parameters}
 
-    def parse(self, given: Iterable[tuple[str, str]]) -> dict[str, Any]:
-        """Values for the names and texts given, checked: types by the schema, ranges and relations by the library.
+    def parse(self, given: Iterable[tuple[str, str]], file: Mapping[str, Any] | None = None) -> dict[str, Any]:
+        """The parameters to change, checked: types by the schema, ranges and relations by the library.
+
+        Parameters
+        ----------
+        given : iterable of (str, str)
+            Names and texts, as typed on a command line.
+        file : mapping of str to object, optional
+            Names and values, as read from a YAML file; those `given` go before them.
 
         Raises
         ------
         StudyError
             Naming the first parameter that is unknown or wrong, the value, and what is allowed.
         """
-        return self._checked((name, text, lambda parameter, text: parameter.parse(text)) for name, text in given)
-
-    def convert(self, given: Mapping[str, Any]) -> dict[str, Any]:
-        """As `parse`, for values that are read from a YAML file."""
-        return self._checked(
-            (name, value, lambda parameter, value: parameter.convert(value)) for name, value in given.items()
-        )
-
-    def _checked(self, given: Iterable[tuple[str, Any, Callable[[Parameter, Any], Any]]]) -> dict[str, Any]:
         known = {parameter.name: parameter for parameter in self.parameters}
         values: dict[str, Any] = {}
-        for name, value, read in given:
+        read = [(name, value, False) for name, value in (file or {}).items()]
+        for name, value, typed in read + [(name, text, True) for name, text in given]:
             if name not in known:
                 raise StudyError(unknown_name(name, [*known], self.name))
             try:
-                values[name] = read(known[name], value)
+                values[name] = known[name].parse(value) if typed else known[name].convert(value)
             except ValueError:
                 raise StudyError(f"{name} of {self.name} must be {known[name].allowed}, got {value!r}") from None
         if self.stands_for is not None:
@@ -203,6 +202,10 @@ class Chapter:
             except ValueError as error:
                 raise StudyError(str(error)) from None
         return values
+
+    def convert(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """`parse` for values from a YAML file alone."""
+        return self.parse([], values)
 
 
 def read_chapter(path: Path) -> Chapter:

@@ -118,8 +118,7 @@ def run(
 
     found = _book(context)
     read = found.chapter(chapter)
-    values = {**(read.convert(_read_parameters(file)) if file else {}), **read.parse(given)}
-    read.convert(values)  # the two together
+    values = read.parse(given, _read_parameters(file) if file else None)
     suffix = ".html" if html else ".ipynb"
     output = output or Path(f"{read.name}-run{suffix}")
     if output.suffix != suffix:

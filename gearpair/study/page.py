@@ -113,10 +113,12 @@ def _whole(page: Path, html: Path) -> str:
         _fold(box)
     title = soup.find("h1")
     style = "\n".join(_styles(soup, page))
+    mathjax = html / "_static" / MATHJAX  # a book without formulas may do without it
+    script = mathjax.read_text(encoding="utf-8") if mathjax.is_file() else ""
     return PAGE.format(
         title=title.get_text().rstrip("#").strip() if title else page.stem,
         style=style + STYLE,
-        mathjax=(html / "_static" / MATHJAX).read_text(encoding="utf-8").replace("</script", "<\\/script"),
+        mathjax=script.replace("</script", "<\\/script"),
         body=article.decode_contents(),
     )
 

@@ -111,11 +111,12 @@ def _head(variant: Variant) -> str:
         for name, value in changed.items()
     ]
     table = "\n".join(["| parameter | what it is | in the chapter | here |", "|---|---|---|---|", *rows])
+    chapter = f"[{variant.chapter.title}]({variant.chapter.path.name})"
     return (
         f"# {variant.title}\n\n{variant.why}\n\n"
-        f"This page is the chapter [{variant.chapter.title}]({variant.chapter.path.name}), computed again with other parameters. Figures, "
-        "tables and the numbers in the text are those of this variant; the words around them were written for the "
-        f"chapter, and where they describe its parameters they do not hold here.\n\n{table}"
+        f"This page is the chapter {chapter}, computed again with other parameters. Figures, tables and the numbers in "
+        "the text are those of this variant; the words around them were written for the chapter, and where they "
+        f"describe its parameters they do not hold here.\n\n{table}"
     )
 
 
