@@ -1,5 +1,7 @@
 """The verdicts follow one rule, cover every item once, and agree with what is known independently."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -31,10 +33,21 @@ def test_the_rule(printed, best, word):
         (None, 0.86, "refuted"),
         (0.84, None, "refuted"),
         (None, None, "refuted"),
+        (0.809, 0.791, "confirmed"),  # near is 1 % on either side
+        (0.811, 0.809, "corrected"),
+        (0.809, 0.811, "corrected"),  # one of them near is enough
+        (0.811, 0.811, "corrected"),  # neither is near, the best is not far
+        (0.811, None, "refuted"),  # only the best reading's other number corrects
+        (None, 0.751, "corrected"),  # far is 5 % on either side
+        (None, 0.749, "refuted"),
+        (0.805, 0.9, "corrected"),
     ],
 )
 def test_the_rule_for_numbers(printed, best, word):
+    """On an axis of any length: near and far are shares of it."""
     assert verdicts.judge_number(printed, best, 0.8, 1.0) == word
+    half = [None if value is None else 0.5 * value for value in (printed, best)]
+    assert verdicts.judge_number(*half, 0.4, 0.5) == word
 
 
 def test_the_table_wants_every_item_exactly_once():
@@ -44,6 +57,10 @@ def test_the_table_wants_every_item_exactly_once():
         hy.verdict_table([v for v in items if v.item != "F3"])
     with pytest.raises(ValueError, match="exactly once"):
         hy.verdict_table(items, items[:1])
+    row = hy.verdict_table(
+        [verdicts.Verdict("F3", "so", "or so", "refuted")], (v for v in items if v.item != "F3")
+    ).rows
+    assert [r[2:] for r in row if r[0] == "F3"] == [("so", "or so", "refuted")]
 
 
 @pytest.fixture(scope="module")
@@ -67,12 +84,29 @@ def test_the_swapped_reading_has_the_published_doubling_to_period_4(swapped_chan
     assert abs(change.value - 0.865) < 0.01
 
 
-def test_nearness_is_certain_for_far_and_impossible_for_exact(swapped_changes):
+def changes_at(*values, kind="fold", parameter="damping_ratio"):
+    """Bifurcations of which only the value, the kind and the parameter matter."""
+    return [SimpleNamespace(kind=kind, parameter=parameter, value=value) for value in values]
+
+
+def test_a_distance_of_zero_from_the_stated_values_is_beyond_chance():
+    """Changes exactly at the published boundaries: distance 0, which no random table has."""
+    stated = [b.value for b in published.DAMPING_BOUNDARIES]
+    assert hy.distance_from_bifurcations("damping_ratio", changes_at(*stated)) == (0.0, 0.0)
+    off = changes_at(*stated, kind="grazing") + changes_at(0.5 * sum(stated)) + changes_at(*stated, parameter="b")
+    distance, _ = hy.distance_from_bifurcations("damping_ratio", off)  # grazings and other parameters do not count
+    assert distance == pytest.approx(0.5 * (stated[1] - stated[0]))
+
+
+def test_the_chance_of_a_distance_is_the_area_it_must_be(swapped_changes):
+    """One change at c, two boundaries: the share of the square of random ones with (|u - c| + |v - c|) / 2 <= d."""
     (fold,) = [b for b in swapped_changes if b.parameter == "damping_ratio" and b.kind == "fold"]
-    distance, chance = hy.nearness("damping_ratio", [fold])
-    expected = np.mean([abs(b.value - fold.value) for b in published.DAMPING_BOUNDARIES])
-    assert distance == pytest.approx(expected)
-    assert 0.0 < chance < 1.0
+    distance, chance = hy.distance_from_bifurcations("damping_ratio", [fold], n=20_000)
+    assert distance == pytest.approx(np.mean([abs(b.value - fold.value) for b in published.DAMPING_BOUNDARIES]))
+    away = np.abs((np.arange(2000) + 0.5) / 2000 * 0.025 - fold.value)
+    area = np.mean(0.5 * (away[:, None] + away) <= distance)
+    assert 0.1 < area < 0.9
+    assert chance == pytest.approx(area, abs=4.0 * np.sqrt(area * (1.0 - area) / 20_000))
 
 
 def test_existence_in_the_swapped_reading_and_not_in_the_printed():

@@ -10,6 +10,7 @@ import sys
 from dataclasses import dataclass
 from difflib import get_close_matches
 from importlib.metadata import PackageNotFoundError, distribution
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -101,6 +102,12 @@ def _files(entry: Any) -> list[str]:
     return []
 
 
+def need_book_extra() -> None:
+    """Refuse to make pages where what renders them is not installed."""
+    if find_spec("jupyter_book") is None or find_spec("bs4") is None:
+        raise StudyError("pages need the extra 'book': pip install '.[book]' in a checkout of gearpair")
+
+
 def build_book(book: Book, target: Path | None = None) -> Path:
     """Execute the chapters and variants that have changed, render the site, and put it in place of the last one.
 
@@ -123,6 +130,7 @@ def build_book(book: Book, target: Path | None = None) -> Path:
     StudyError
         If a chapter fails (naming it, the cell and the error) or the site does not build without warnings.
     """
+    need_book_extra()
     target = (target or book.target).resolve()
     html, chapters, stamp = target / "html", target / "chapters", target / "site.json"
     pages: list[Chapter | Variant] = [*book.chapters(), *book.variants()]

@@ -131,6 +131,9 @@ def run(
     if told := warning(read, values, Cache(found.target / "cache").seconds(read.name)):
         print(told, file=sys.stderr)
     if html:
+        from gearpair.study.book import need_book_extra
+
+        need_book_extra()
         from gearpair.study.page import make_page
 
         make_page(found, read, output, values, progress=not quiet)
