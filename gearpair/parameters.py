@@ -14,6 +14,7 @@ from functools import partial
 from typing import Any
 
 from gearpair._checks import check_count, check_number
+from gearpair.drive import GearDrive
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
@@ -23,9 +24,22 @@ OSCILLATOR = tuple(field.name for field in fields(Oscillator) if field.name != "
 WAVE = ("contact_ratio", "a", "b", "reading")
 PAIR = tuple(field.name for field in fields(SpurPair))
 MESH = ("root", "foundation", "coupling")
+DRIVE = (
+    *("pinion_torque_nm", "backlash_um", "backlash", "transmission_error_um", "damping_ratio"),
+    *("pinion_added_inertia_kg_m2", "gear_added_inertia_kg_m2"),
+)
+ANY_SPEED = 1000.0  # rpm, of a drive that is checked for all else
 STANDS_FOR = {"lowest": "mesh_frequency", "highest": "mesh_frequency", "chaos_near": "mesh_frequency"}
 STARTS = ("first_start", "second_start")
-FEWEST = {"n_values": 2, "n_fine": 2, "n_x": 2, "n_v": 2, "n_transient": 0}  # of another n_... : 1
+FEWEST = {
+    "n_values": 2,
+    "n_fine": 2,
+    "n_x": 2,
+    "n_v": 2,
+    "n_speeds": 2,
+    "n_transient": 0,
+    "n_starts": 0,
+}  # of another n_... : 1
 INJECTED = "# Parameters"  # how papermill begins the cell that it puts in
 
 
@@ -59,13 +73,15 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
     osc = Oscillator(**_chosen(values, OSCILLATOR), stiffness=wave)
     if pair := _chosen(values, PAIR):
         mesh_stiffness(SpurPair(**pair), **_chosen(values, MESH))
+    if "pinion_torque_nm" in values:
+        GearDrive.from_pair(SpurPair(**pair), pinion_speed_rpm=ANY_SPEED, **_chosen(values, DRIVE))
     for name, scalar in {**STANDS_FOR, **stands_for}.items():
         if name in values:
             _check_as(name, partial(osc.replace, **{scalar: values[name]}))
-    if "lowest" in values and "highest" in values and not values["lowest"] < values["highest"]:
-        raise ValueError(
-            f"lowest must be below highest, got lowest = {values['lowest']} and highest = {values['highest']}"
-        )
+    for low, high in (("lowest", "highest"), ("lowest_rpm", "highest_rpm")):
+        first, last = values.get(low), values.get(high)
+        if first is not None and last is not None and not first < last:
+            raise ValueError(f"{low} must be below {high}, got {low} = {first} and {high} = {last}")
     for name, value in values.items():
         _check_alone(name, value)
 
@@ -93,7 +109,7 @@ def _check_alone(name: str, value: Any) -> None:
         _check_as(name, lambda: check_start(*value))
     elif name in ("start_x", "start_v"):
         check_number(name, value)
-    elif name in ("x_reach", "v_reach"):
+    elif name in ("x_reach", "v_reach") or (name in ("lowest_rpm", "highest_rpm") and value is not None):
         check_number(name, value, above=0.0)
     elif name == "narrowest":
         check_number(name, value, at_least=0.0)

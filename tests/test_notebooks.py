@@ -32,6 +32,16 @@ CHANGED = {
     "method": {"mesh_frequency": "0.95", "reading": "swapped", "n_starts": "2", "n_values": "11"},
     "reproduction": {"n_values": "31", "n_fine": "51", "n_reached": "8", "phase_step": "60"},
     "impacts": {"mean_force": "0.3", "reading": "swapped", "n_x": "13", "n_v": "9"},
+    "speed_chart": {  # another pair, from another kind of drawing
+        **{
+            "pinion_teeth": "25",
+            "gear_teeth": "71",
+            "module_mm": "2",
+            "backlash": "thickness",
+            "pinion_torque_nm": "20",
+        },
+        **{"pinion_shift": "0.2", "gear_added_inertia_kg_m2": "0.01", "n_speeds": "31", "n_starts": "3"},
+    },
 }
 # A value that the library refuses, and its sentence.
 REFUSED = {
@@ -44,6 +54,11 @@ REFUSED = {
     "damping_sweep": ("mesh_frequency", "0", "mesh_frequency must be a finite number above 0, got 0.0"),
     "method": ("mesh_frequency", "0", "mesh_frequency must be a finite number above 0, got 0.0"),
     "reproduction": ("n_values", "1", "n_values must be a whole number of at least 2, got 1"),
+    "speed_chart": (
+        "pinion_teeth",
+        "12",
+        "pinion_teeth = 12 is undercut: pinion_shift is 0 and must be at least 0.2981",
+    ),
     "impacts": ("error_amplitude", "-1", "error_amplitude must be a finite number at least 0, got -1.0"),
 }
 

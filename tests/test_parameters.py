@@ -6,6 +6,8 @@ from gearpair.parameters import check_parameters
 
 DECLARING = "damping_ratio: float = 0.02  # zeta\nn_values: int = 101  # frequencies"
 
+DRIVE = {"pinion_torque_nm": 120.0, "backlash_um": 100.0, "transmission_error_um": 4.0, "damping_ratio": 0.05}
+
 
 @pytest.mark.parametrize(
     ("values", "sentence"),
@@ -22,7 +24,14 @@ DECLARING = "damping_ratio: float = 0.02  # zeta\nn_values: int = 101  # frequen
         ({"pinion_teeth": 34, "coupling": "sum"}, "coupling must be one of 'summed', 'ring', got 'sum'"),
         ({"pinion_teeth": 34, "coupling": "ring", "foundation": False}, "it needs foundation=True"),
         ({"n_values": 1}, "n_values must be a whole number of at least 2, got 1"),
-        ({"n_starts": 0}, "n_starts must be a whole number of at least 1, got 0"),
+        ({"n_reached": 0}, "n_reached must be a whole number of at least 1, got 0"),
+        ({**DRIVE, "backlash_um": -1.0}, "backlash_um must be a finite number above 0, got -1.0"),
+        ({**DRIVE, "backlash": "wide"}, "backlash must be one of 'normal', 'circumferential', 'thickness', got 'wide'"),
+        (
+            {"lowest_rpm": 3000.0, "highest_rpm": 2000.0},
+            "lowest_rpm must be below highest_rpm, got lowest_rpm = 3000.0",
+        ),
+        ({"lowest_rpm": None, "highest_rpm": 0.0}, "highest_rpm must be a finite number above 0, got 0.0"),
         ({"n_transient": -1}, "n_transient must be a whole number of at least 0, got -1"),
         ({"n_x": 2.5}, "n_x must be a whole number"),
         ({"first_start": [1.0]}, "first_start must be the two numbers X and X', got [1.0]"),
@@ -39,6 +48,10 @@ def test_what_the_library_refuses_is_refused_by_the_parameters_name(values, sent
     with pytest.raises(ValueError) as refusal:
         check_parameters(values)
     assert sentence in str(refusal.value)
+
+
+def test_values_that_are_none_are_the_librarys_choice():
+    check_parameters({**DRIVE, "tip_radius": None, "lowest_rpm": None, "highest_rpm": 3000.0, "n_starts": 0})
 
 
 def test_a_name_means_what_the_chapter_says():

@@ -88,6 +88,15 @@ def test_a_branch_that_turns_back_has_two_ranges_at_a_time():
     assert spans(stable_ranges([branch])) == [(1.0, 3.0, 1)]
 
 
+def test_a_branch_that_turns_back_between_stable_orbits_is_counted_twice():
+    """Where a step passes a fold and a flip the orbits on both sides are stable: two ranges that meet at the fold."""
+    events = [(2, made_up("fold", 3.2)), (2, made_up("flip", 3.1))]
+    branch = branch_of([1, 2, 3, 2, 1], [1, 1, 1, 1, 1], located=events)
+    assert counted(coexistence([branch], 1.0, 4.0)) == [(1.0, 3.2, 2), (3.2, 4.0, 0)]
+    unlocated = coexistence([branch_of([1, 2, 3, 2, 1], [1, 1, 1, 1, 1])], 1.0, 4.0)
+    assert counted(unlocated) == [(1.0, 2.5, 2), (2.5, 3.0, 1), (3.0, 4.0, 0)]
+
+
 def test_ranges_that_touch_or_overlap_are_joined_and_the_longer_one_counts():
     """A short range inside a long one does not shorten it; other periods stay apart."""
     long, short = branch_of([0, 10], [1, 1]), branch_of([2, 5], [1, 1])

@@ -99,8 +99,8 @@ def _stable_pieces(branch: Branch) -> list[MotionRange]:
     for i in range(len(branch.values) + 1):
         inside = i < len(branch.values) and branch.stable[i]
         if start is not None and (not inside or states[i] != states[start] or _turns_back(branch, start, i)):
-            ends = [_edge(branch, start - 1, start), _edge(branch, i - 1, i)]
-            pieces.append(MotionRange(min(ends), max(ends), periodic(branch.period, states[start])))
+            reached = [_edge(branch, start - 1, start), *branch.values[start:i].tolist(), _edge(branch, i - 1, i)]
+            pieces.append(MotionRange(min(reached), max(reached), periodic(branch.period, states[start])))
             start = None
         if inside and start is None:
             start = i
@@ -123,7 +123,7 @@ def _edge(branch: Branch, i: int, j: int) -> float:
         return float(branch.values[max(i, 0) if j >= len(branch.values) else j])
     changed = branch.stable[i] != branch.stable[j]
     between = [b for b, row in zip(branch.bifurcations, branch.bifurcation_rows, strict=True) if row == i]
-    fitting = [b.value for b in between if (b.kind != "grazing") == changed]
+    fitting = [b.value for b in between if (b.kind != "grazing") == changed] or [b.value for b in between]
     if not fitting:
         return float(0.5 * (branch.values[i] + branch.values[j]))
     return fitting[0] if branch.stable[i] else fitting[-1]

@@ -26,6 +26,7 @@ from gearpair.plotting.methods import (
 )
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states, period_map
+from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, rattle, tooth_loads, tornado
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.teeth import (
     compliance_stack,
@@ -41,6 +42,7 @@ from gearpair.plotting.teeth import (
 from gearpair.plotting.waves import harmonics, stiffness_wave
 
 __all__ = [
+    "CHANGES",
     "MOTION_COLOURS",
     "STYLE",
     "add_motion_legend",
@@ -55,6 +57,7 @@ __all__ = [
     "contact_ratio_cloud",
     "coverage_by_phase",
     "drawn_diagram",
+    "dynamic_factors",
     "exponents",
     "extremes",
     "finite_element_check",
@@ -76,6 +79,7 @@ __all__ = [
     "portrait",
     "range_lanes",
     "range_strips",
+    "rattle",
     "reached_motions",
     "score_ranking",
     "spectrum",
@@ -83,6 +87,8 @@ __all__ = [
     "stiffness_trends",
     "stiffness_wave",
     "time_history",
+    "tooth_loads",
     "tooth_outlines",
+    "tornado",
     "work_precision",
 ]

@@ -14,7 +14,7 @@ from gearpair.stiffness import StiffnessWave
 from gearpair.study.chapters import Chapter
 
 WORTH_TELLING = 3.0
-GRID, AXES = ("n_x", "n_v"), ("n_values", "n_fine", "n_reached")
+GRID, AXES = ("n_x", "n_v"), ("n_values", "n_fine", "n_reached", "n_speeds")
 SAMPLES = 9  # oscillators along an axis whose cost stands for all
 WAVE = ("contact_ratio", "a", "b", "reading")
 
