@@ -1,6 +1,7 @@
 """Building the book: what is shown is what ran, and a failure leaves the last good book in place."""
 
 import nbformat
+import papermill
 import pytest
 from bs4 import BeautifulSoup
 
@@ -34,8 +35,10 @@ def test_a_good_build_takes_the_place_of_the_last(built_before):
     assert "0.9464" in page
     made = sorted(path.name for path in (built_before / "_build").iterdir())
     assert made == ["cache", "chapters", "html", "site.json"]
-    offered = (built_before / "_build" / "html" / "_sources" / "book" / "chapters" / "small.ipynb").read_text()
-    assert str(built_before) not in offered
+    offered = built_before / "_build" / "html" / "_sources" / "book" / "chapters" / "small.ipynb"
+    assert str(built_before) not in offered.read_text()
+    rerun = papermill.execute_notebook(offered, None, {"a": 0.2}, progress_bar=False)  # as it is, by a reader
+    assert [cell.outputs[0].text for cell in rerun.cells if cell.get("outputs")] == ["1.0035\n"]
 
 
 def test_a_failed_chapter_is_named_and_the_last_book_stays(built_before, capsys):

@@ -32,7 +32,11 @@ def waiting(small_book, tmp_path):
         process = subprocess.Popen(
             command,
             cwd=tmp_path,
-            env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[1])},
+            env={
+                **os.environ,
+                "PYTHONPATH": str(Path(__file__).parents[1]),
+                "JUPYTER_RUNTIME_DIR": str(tmp_path / "jupyter"),
+            },
             stderr=subprocess.PIPE,
             text=True,
         )
@@ -64,6 +68,7 @@ def alive(pid):
 
 
 def left(directory):
+    """What is there beside the checkout and the file of the kernel; Jupyter's own directory is not to be used."""
     return sorted(path.name for path in directory.iterdir() if path.name not in ("checkout", "started"))
 
 

@@ -19,7 +19,7 @@ from gearpair.study.record import versions
 
 LIBRARY = Path(gearpair.__file__).parent
 COMPUTES = ("numpy", "scipy", "numba", "matplotlib", "xarray", "pandas", "ipykernel", "myst-nb")
-MAKES = ("study/execution.py", "study/record.py")  # of the study: what an executed notebook depends on
+MAKES = ("study/record.py",)  # of the study: what an executed notebook depends on
 KEPT = 40  # entries beside those of the last build
 
 

@@ -36,8 +36,11 @@ class ThisInterpreter(AsyncKernelManager):
     The talk with the kernel is encrypted where that is possible, for the kernel warns when it is not.
     """
 
+    scratch = Path()  # where the file with the kernel's addresses goes, so that it is cleared with the rest
+
     def __init__(self, **settings: Any) -> None:
-        super().__init__(transport_encryption="auto" if zmq.has("curve") else "disabled", **settings)
+        encryption = "auto" if zmq.has("curve") else "disabled"
+        super().__init__(transport_encryption=encryption, connection_file=str(self.scratch / "kernel.json"), **settings)
 
     @property
     def kernel_spec(self) -> KernelSpec:
@@ -119,7 +122,7 @@ def execute(
                 engine_name="lively",
                 kernel_name="python3",
                 language="python",
-                kernel_manager_class=ThisInterpreter,
+                kernel_manager_class=type("ThisInterpreter", (ThisInterpreter,), {"scratch": scratch.resolve()}),
                 progress_bar={"desc": chapter.name} if progress else False,
             )
         except PapermillExecutionError as error:
