@@ -1,5 +1,5 @@
 # Two commands do everything, each from a fresh clone with Python 3.11+ and make:
-#   make book    execute the chapters and build the site at _build/html/index.html
+#   make book    execute the chapters that changed and build the site at _build/html/index.html
 #   make test    run every test
 # Others:
 #   make bench   measure accuracy and time on this machine, beside other integrators (some minutes; installs the

@@ -11,6 +11,7 @@ import nbformat
 import pytest
 
 from gearpair.study.book import Book
+from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
 from tests.conftest import MEAN, write_notebook
 
@@ -136,12 +137,40 @@ def test_a_chapter_runs_with_other_parameters(name, tmp_path):
 
 
 @pytest.mark.parametrize("name", CHAPTERS)
-def test_papermill_itself_stops_at_a_value_out_of_range(name, tmp_path):
+def test_a_chapter_checks_its_parameters_before_a_kernel_starts(name):
+    """Its first cell after the parameters calls `check_parameters`, and so does the command line."""
+    chapter = BOOK.chapter(name)
+    assert chapter.stands_for is not None
     parameter, value, sentence = REFUSED[name]
-    command = [sys.executable, "-m", "papermill", str(BOOK.chapter(name).path), str(tmp_path / "out.ipynb")]
-    result = subprocess.run([*command, "-p", parameter, value], cwd=ROOT, capture_output=True, text=True)
+    with pytest.raises(StudyError) as refusal:
+        chapter.parse([(parameter, value)])
+    assert sentence in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["-p", "mesh_frequency", "0"], "mesh_frequency must be a finite number above 0, got 0"),
+        (
+            ["-p", "highest", "200"],
+            "highest: damping_ratio must be a finite number at least 0 and at most 100, got 200.0",
+        ),
+        (["-f", "mine.yml"], "n_values must be a whole number of at least 2, got 1"),
+        (
+            ["-p", "mesh_frequnecy", "0.8"],
+            "this chapter has no parameter 'mesh_frequnecy'; did you mean 'mesh_frequency'?",
+        ),
+    ],
+)
+def test_papermill_itself_stops_at_what_is_out_of_range(tmp_path, words, sentence):
+    (tmp_path / "mine.yml").write_text("n_values: 1\n")
+    command = [sys.executable, "-m", "papermill", str(BOOK.chapter("damping_sweep").path), "out.ipynb", *words]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    result = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
     assert result.returncode != 0
-    assert sentence in result.stderr
+    assert f"ValueError: {sentence}" in result.stderr
+    ran = [cell for cell in code_cells(tmp_path / "out.ipynb") if cell.execution_count]
+    assert "check_parameters" in ran[-1].source  # nothing after it was run
 
 
 def test_nbval_sees_a_broken_library(small_book, tmp_path):
