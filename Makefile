@@ -4,13 +4,15 @@
 # Others:
 #   make bench   measure accuracy and time on this machine, beside other integrators (some minutes; installs the
 #                bench extra first, and does without where it cannot be had); BENCH_ARGS=--quick for less
+#   make stability  run the chapters on other terms (another processor, one thread, other rounding) and compare their
+#                outputs with the stored ones (half an hour); CHAPTERS="impacts method" for some of them
 #   make accept  re-execute the source notebooks and store their new outputs (review them with git diff)
 #   make lock    re-make requirements.lock from pyproject.toml
 #   make clean   remove what was generated (the environment in .venv stays)
 # Choose an interpreter with PYTHON=python3.12; pass options to pytest with PYTEST_ARGS="-k layers".
 
 .DEFAULT_GOAL := help
-.PHONY: help book test bench accept lock clean
+.PHONY: help book test bench stability accept lock clean
 .DELETE_ON_ERROR:
 
 VERSION_CHECK := import sys; sys.exit(sys.version_info < (3, 11))
@@ -18,6 +20,7 @@ PYTHON ?= $(shell for p in python3 python3.11 python3.12 python3.13 python3.14; 
 	$$p -c '$(VERSION_CHECK)' >/dev/null 2>&1 && { echo $$p; break; }; done)
 PYTEST_ARGS ?=
 BENCH_ARGS ?=
+CHAPTERS ?=
 
 VENV := .venv
 READY := $(VENV)/.ready
@@ -44,6 +47,9 @@ $(BENCH_READY): $(READY)
 		$$($(RUN) -c 'import tomllib; \
 		print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["bench"])')
 	@touch $@
+
+stability: $(READY)
+	@$(RUN) -m gearpair stability $(CHAPTERS)
 
 accept: $(READY)
 	@$(RUN) -m gearpair accept

@@ -30,7 +30,10 @@ CHANGED = {
     "frequency_sweep": {"damping_ratio": "0.05", "n_values": "101", "reading": "swapped", "narrowest": "0.05"},
     "damping_sweep": {"mesh_frequency": "1.219", "highest": "0.2", "n_values": "51", "n_transient": "1000"},
     "method": {"mesh_frequency": "0.95", "reading": "swapped", "n_starts": "2", "n_values": "11"},
-    "reproduction": {"n_values": "31", "n_fine": "51", "n_reached": "8", "phase_step": "60"},
+    "reproduction": {
+        **{"n_values": "21", "n_fine": "51", "n_reached": "8", "phase_step": "60"},
+        **{"n_search": "51", "n_steps": "2", "n_phases": "2"},
+    },
     "impacts": {"mean_force": "0.3", "reading": "swapped", "n_x": "13", "n_v": "9"},
     "speed_chart": {  # another pair, from another kind of drawing
         **{

@@ -5,7 +5,7 @@ colour-blind readers. Nothing is set at import: ``plt.style.use(STYLE)``, or ``w
 the book's look.
 """
 
-from gearpair.plotting.article import coverage_by_phase, reached_motions, score_ranking
+from gearpair.plotting.article import boundaries_by_step, coverage_by_phase, reached_motions, score_ranking
 from gearpair.plotting.bifurcations import bifurcation_curves, branches
 from gearpair.plotting.diagrams import (
     bifurcation_diagram,
@@ -50,6 +50,7 @@ __all__ = [
     "basins",
     "bifurcation_curves",
     "bifurcation_diagram",
+    "boundaries_by_step",
     "branches",
     "certificate",
     "certified_steps",

@@ -170,3 +170,22 @@ def accept(context: click.Context) -> None:
 
     changed = accept_outputs(_book(context))
     print(f"new outputs stored: {', '.join(changed)} (look at them with git diff)" if changed else "nothing changed")
+
+
+@command.command()
+@click.argument("chapters", nargs=-1)
+@click.pass_context
+def stability(context: click.Context, chapters: tuple[str, ...]) -> None:
+    """Run chapters on other terms and compare with the stored outputs.
+
+    As on a processor without fused multiply-add, with one thread, and with parameters changed by 1e-12. CHAPTERS are
+    names; all when none is given.
+    """
+    from gearpair.study.stability import check_stability
+
+    unstable = 0
+    for name, condition, cells in check_stability(_book(context), chapters):
+        unstable += bool(cells)
+        print(f"{name}, {condition}: " + (f"code cells {', '.join(map(str, cells))} differ" if cells else "the same"))
+    if unstable:
+        raise StudyError(f"{unstable} of the runs put out something else than is stored")
