@@ -16,10 +16,9 @@ import yaml
 from gearpair.study.chapters import Chapter, read_chapter
 from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
+from gearpair.study.finishing import finish_site
 
 EXECUTED = "book/chapters/"
-# MathJax comes with a package, so that a reader's browser fetches nothing; of its 24 MB a page needs these.
-MATHJAX_KEPT = ("tex-chtml.js", "output/chtml/fonts", "input/tex/extensions")
 
 
 @dataclass(frozen=True)
@@ -47,10 +46,19 @@ class Book:
         """The rendered site."""
         return self.root / "_build" / "html"
 
+    @property
+    def toc(self) -> dict[str, Any]:
+        """The table of contents."""
+        return dict(yaml.safe_load((self.root / "_toc.yml").read_text(encoding="utf-8")))
+
+    @property
+    def title(self) -> str:
+        """The book's title."""
+        return str(yaml.safe_load((self.root / "_config.yml").read_text(encoding="utf-8"))["title"])
+
     def chapter_names(self) -> list[str]:
         """Names of the chapters, in the order of the table of contents (the one place that lists them)."""
-        toc = yaml.safe_load((self.root / "_toc.yml").read_text(encoding="utf-8"))
-        return [file.removeprefix(EXECUTED) for file in _files(toc) if file.startswith(EXECUTED)]
+        return [file.removeprefix(EXECUTED) for file in _files(self.toc) if file.startswith(EXECUTED)]
 
     def chapters(self) -> list[Chapter]:
         """All chapters, read."""
@@ -102,23 +110,30 @@ def build_book(book: Book, *, progress: bool = True) -> Path:
         notebook.metadata.pop("papermill", None)  # it names the directories of this machine; readers can download it
         nbformat.write(notebook, output)
     _put_in_place(staging / "chapters", book.executed)
-    site = _render(book.root, staging)
-    _trim_mathjax(site / "_static" / "mathjax")
+    site = render(book, staging)
     _put_in_place(site, book.html)
     shutil.rmtree(staging)
     return book.html / "index.html"
 
 
-def _render(root: Path, staging: Path) -> Path:
-    """Build the site, warnings as errors; return where it is."""
+def render(book: Book, staging: Path) -> Path:
+    """Build the site from the executed chapters that are there, warnings as errors; return where it is.
+
+    Raises
+    ------
+    StudyError
+        If there was a warning.
+    """
     code = "import sys; from jupyter_book.cli.main import main; sys.exit(main())"
-    command = [sys.executable, "-c", code, "build", str(root), "--path-output", str(staging)]
+    command = [sys.executable, "-c", code, "build", str(book.root), "--path-output", str(staging)]
     options = ["--all", "--warningiserror", "--keep-going", "--quiet"]
     result = subprocess.run([*command, *options], check=False, stdout=subprocess.PIPE, text=True)
     if result.returncode:
         print(result.stdout)
         raise StudyError("the pages did not build without warnings (they are named above); the last book stays")
-    return staging / "_build" / "html"
+    site = staging / "_build" / "html"
+    finish_site(site, first_page=book.toc["root"], title=book.title)
+    return site
 
 
 def _put_in_place(new: Path, old: Path) -> None:
@@ -129,12 +144,6 @@ def _put_in_place(new: Path, old: Path) -> None:
         os.replace(old, aside)
     os.replace(new, old)
     shutil.rmtree(aside, ignore_errors=True)
-
-
-def _trim_mathjax(mathjax: Path) -> None:
-    for path in [*mathjax.rglob("*")]:
-        if path.is_file() and not path.relative_to(mathjax).as_posix().startswith(MATHJAX_KEPT):
-            path.unlink()
 
 
 def accept_outputs(book: Book, *, progress: bool = True) -> list[str]:
