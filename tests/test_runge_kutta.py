@@ -79,9 +79,9 @@ def test_carried_and_restarted_sweeps_start_where_they_say():
     np.testing.assert_array_equal(carried.x[1], alone[:, 0])
 
 
-def test_apparent_period():
+def test_section_period():
     cycle = np.tile([[1.0, 0.0], [2.0, 0.1], [3.0, 0.2]], (10, 1))
-    assert gp.methods.apparent_period(cycle) == 3
-    assert gp.methods.apparent_period(cycle + 0.004 * np.sin(np.arange(30))[:, None]) == 3
-    assert gp.methods.apparent_period(np.random.default_rng(1).normal(size=(30, 2))) == 0
-    assert gp.methods.apparent_period(np.full((30, 2), np.nan)) == 0
+    assert gp.methods.section_period(cycle) == 3
+    assert gp.methods.section_period(cycle + 0.004 * np.sin(np.arange(30))[:, None]) == 3
+    assert gp.methods.section_period(np.random.default_rng(1).normal(size=(30, 2))) == 0
+    assert gp.methods.section_period(np.full((30, 2), np.nan)) == 0

@@ -44,6 +44,7 @@ def model_items(printed: Hypothesis, best: Hypothesis) -> list[Verdict]:
     of_ones = [1.0 + row.a * (row.contact_ratio - 1.0) - row.b * (2.0 - row.contact_ratio) for row in rows]
     swapped = [1.0 + row.a * (2.0 - row.contact_ratio) - row.b * (row.contact_ratio - 1.0) for row in rows]
     orbit = periodic_orbit(best.oscillator(), 0.887, -0.337, 1)
+    assert orbit.multipliers is not None  # it has converged
     shrink = float(np.exp(-2.0 * orbit.oscillator.damping_ratio * orbit.oscillator.period))
     product = float(np.prod(orbit.multipliers).real)
     return [

@@ -138,7 +138,7 @@ def runge_kutta_sweep(
         {
             "x": ((parameter, "sample"), points[:, :, 0], attributes("x")),
             "v": ((parameter, "sample"), points[:, :, 1], attributes("v")),
-            "period": (parameter, [apparent_period(section, closeness) for section in points], attributes("period")),
+            "period": (parameter, [section_period(section, closeness) for section in points], attributes("period")),
             "calls": (parameter, calls, {"long_name": "calls of the right-hand side", "units": "1"}),
         },
         {parameter: (parameter, checked, attributes(parameter))},
@@ -146,7 +146,7 @@ def runge_kutta_sweep(
     )
 
 
-def apparent_period(points: ArrayLike, closeness: float = 0.01) -> int:
+def section_period(points: ArrayLike, closeness: float = 0.01) -> int:
     """The period that a reader sees in section points: the smallest that all of them repeat with.
 
     Parameters
@@ -163,7 +163,7 @@ def apparent_period(points: ArrayLike, closeness: float = 0.01) -> int:
 
     Examples
     --------
-    >>> apparent_period([[1.0, 0.0], [2.0, 0.0], [1.001, 0.0], [2.0, 0.0]])
+    >>> section_period([[1.0, 0.0], [2.0, 0.0], [1.001, 0.0], [2.0, 0.0]])
     2
     """
     section = np.asarray(points, dtype=float)

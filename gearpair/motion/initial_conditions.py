@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair._flow.settle import APERIODIC, PERIODIC, UNSETTLED, Settled
 from gearpair.motion.datasets import attributes, oscillators_along, settled_variables
 from gearpair.motion.names import IMPACT_NAMES, motion_name, motion_names, motion_order
+from gearpair.motion.same_orbit import lies_on
 from gearpair.motion.settling import SettleSettings, Status, settle_lanes
 from gearpair.motion.steady import SteadyState, steady_state
 from gearpair.motion.trajectories import check_starts
@@ -17,8 +18,6 @@ from gearpair.oscillator import Oscillator
 
 if TYPE_CHECKING:
     import xarray as xr
-
-SAME_ORBIT = 1e-6  # orbits whose first section points lie this close are one
 
 
 def basins(
@@ -116,7 +115,8 @@ def _attractors(out: Settled) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
             continue
         orbit = status == PERIODIC
         key = (float(status), float(out.period[i]), *(out.points[i, 0].tolist() if orbit else (0.0, 0.0)))
-        near = [k for k, other in enumerate(keys) if np.allclose(key, other, rtol=0.0, atol=SAME_ORBIT)]
+        alike = [k for k, other in enumerate(keys) if key[:2] == other[:2]]
+        near = [k for k in alike if not orbit or lies_on(key[2:], out.points[lanes[k], : out.period[i]])]
         if not near:
             keys.append(key)
             lanes.append(i)
