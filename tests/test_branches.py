@@ -130,13 +130,9 @@ def test_coexisting_orbits_are_those_that_starts_settle_on():
     ranges = gp.bifurcations.coexistence(branches, 0.7, 1.05, shortest=1e-4)
     for omega in (0.72, 0.75, 1.045):
         grid = gp.basins(BASELINE.replace(mesh_frequency=omega), np.linspace(-3, 3, 25), np.linspace(-2, 2, 25))
-        reached = {
-            f"period {period} {state}"
-            for period, state in zip(grid.attractor_period.values, grid.attractor_impact_state.values, strict=True)
-            if 0 < period <= 2
-        }
-        names = next(names for low, high, names in ranges if low <= omega <= high)
-        assert reached == set(names)
+        reached = {motion for motion in gp.motion.attractor_motions(grid) if motion.period in (1, 2)}
+        motions = next(motions for low, high, motions in ranges if low <= omega <= high)
+        assert reached == set(motions)
 
 
 def test_the_search_finds_the_coexisting_branches():

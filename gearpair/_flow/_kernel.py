@@ -1,5 +1,6 @@
 """How every kernel here is compiled, in one place; the only one that knows how numba names its cached files."""
 
+import os
 import warnings
 from functools import cache
 from hashlib import sha256
@@ -7,12 +8,15 @@ from pathlib import Path
 
 from numba import njit
 
-# Multiply-adds may be fused; nothing is reordered, and a division by zero gives inf instead of raising.
-OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}, "nogil": True}
+# Multiply-adds may be fused, unless GEARPAIR_FMA=0 asks for the rounding of a processor that has none; nothing is
+# reordered, and a division by zero gives inf instead of raising.
+FUSED = os.environ.get("GEARPAIR_FMA", "1") != "0"
+OPTIONS = {"error_model": "numpy", "fastmath": {"contract"} if FUSED else set(), "nogil": True}
 
 # numba's disk cache looks only at the file a kernel stands in, but a kernel contains those that it calls. So the
 # names of the cached files carry a digest of all sources: after an edit nothing compiled before is found again.
 SOURCES = sha256(b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))).hexdigest()[:16]
+SOURCES += "" if FUSED else "-unfused"
 
 
 def kernel(function, **options):

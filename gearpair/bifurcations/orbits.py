@@ -16,6 +16,7 @@ from gearpair._flow.march import march
 from gearpair._flow.tangent import newton
 from gearpair.bifurcations._cycle import describe_cycle
 from gearpair.motion.impacts import ImpactState, impact_state
+from gearpair.motion.names import Motion, periodic
 from gearpair.motion.same_orbit import lies_on
 from gearpair.motion.stability import multipliers_of
 from gearpair.motion.trajectories import check_start, check_starts
@@ -109,6 +110,11 @@ class PeriodicOrbit:
             f"{stability} orbit of period {self.period}, {self.impact_state}, "
             f"through X = {x:.5g}, X' = {v:.5g}: multipliers {pair}"
         )
+
+    @property
+    def motion(self) -> Motion:
+        """Its period and impact state as one."""
+        return periodic(self.period, self.impact_state)
 
 
 def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> PeriodicOrbit:

@@ -9,11 +9,12 @@ from gearpair.methods.precision import (
     split_levels,
     work_precision,
 )
-from gearpair.methods.runge_kutta import runge_kutta_section, runge_kutta_sweep, section_period
+from gearpair.methods.runge_kutta import Integrator, runge_kutta_section, runge_kutta_sweep, section_period
 from gearpair.methods.solvers import integrated_trajectory
 
 __all__ = [
     "CertifiedStep",
+    "Integrator",
     "Precision",
     "Segment",
     "certificate_examples",
