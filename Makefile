@@ -95,3 +95,13 @@ $(SITE_READY): $(READY)
 		$$($(RUN) -c 'import tomllib; \
 		print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["site"])')
 	@touch $@
+
+#   make check-wheel  build the wheel, install it alone in an empty environment, run the README's example there
+.PHONY: check-wheel
+check-wheel: $(READY)
+	@rm -rf dist $(VENV)-wheel
+	@$(RUN) -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation --wheel-dir dist .
+	@$(PYTHON) -m venv $(VENV)-wheel
+	@$(VENV)-wheel/bin/python -m pip install --quiet --disable-pip-version-check dist/*.whl
+	@$(RUN) tests/check_wheel.py $(VENV)-wheel/bin/python
+	@echo "The wheel works by itself: $$(ls dist)"

@@ -64,6 +64,7 @@ class Rows(HTMLParser):
     def __init__(self, html: str) -> None:
         super().__init__(convert_charrefs=False)
         self.rows: list[list[str]] = []
+        self._open = False
         self.feed(html)
 
     def handle_starttag(self, tag: str, attributes: object) -> None:
@@ -71,15 +72,18 @@ class Rows(HTMLParser):
             self.rows.append([])
         elif tag in {"td", "th"}:
             self.rows[-1].append("")
-        elif self.rows and self.rows[-1]:
-            self.rows[-1][-1] += f"<{tag}>"
+            self._open = True
+        else:
+            self.handle_data(f"<{tag}>")
 
     def handle_endtag(self, tag: str) -> None:
-        if tag not in {"table", "thead", "tbody", "tr", "td", "th"}:
-            self.rows[-1][-1] += f"</{tag}>"
+        if tag in {"td", "th"}:
+            self._open = False
+        else:
+            self.handle_data(f"</{tag}>")
 
     def handle_data(self, data: str) -> None:
-        if self.rows and self.rows[-1]:
+        if self._open:
             self.rows[-1][-1] += data
 
     def handle_entityref(self, name: str) -> None:

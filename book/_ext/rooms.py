@@ -86,7 +86,7 @@ class Face(Generated):
 
 
 def for_readers(app: Sphinx, what: str, name: str, obj: object, options: object, lines: list[str]) -> None:
-    """A docstring as reStructuredText: a modulus such as |X| is no substitution, and a reader needs no doctest flags."""
+    """A docstring as reStructuredText: a modulus such as |X| is no substitution; doctest flags are not for readers."""
     for number, line in enumerate(lines):
         line = re.sub(r"\s*# doctest:.*$", "", line)
         lines[number] = re.sub(r"(?<![`|])\|([^|`\s]+)\|", r"\\|\1\\|", line)

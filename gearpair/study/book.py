@@ -56,6 +56,10 @@ class Book:
         """The book's title."""
         return str(yaml.safe_load((self.root / "_config.yml").read_text(encoding="utf-8"))["title"])
 
+    def pages(self) -> list[str]:
+        """All pages after the first, in order."""
+        return _files({key: value for key, value in self.toc.items() if key != "root"})
+
     def chapter_names(self) -> list[str]:
         """Names of the chapters, in the order of the table of contents (the one place that lists them)."""
         return [file.removeprefix(EXECUTED) for file in _files(self.toc) if file.startswith(EXECUTED)]

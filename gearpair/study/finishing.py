@@ -16,17 +16,28 @@ UNUSED = ("webpack-macros.html", "sbt-webpack-macros.html", "sphinx-thebe.js", "
 MENDS: tuple[tuple[str, str, str], ...] = (
     (r"<script>const THEBE_JS_URL[^<]*</script>\s*", "", "declared twice, and its address is on another host"),
     (r'<script async="async" src="[^"]*sphinx-thebe\.js[^"]*"></script>\s*', "", "no page has a live kernel"),
-    (r'<link[^>]*sphinx-thebe\.css[^>]*/>\s*', "", "the same"),
-    (r'<script type="text/x-thebe-config">.*?</script>\s*<script>kernelName = [^<]*</script>\s*', "", "the same"),
-    (r'(<script>var togglebuttonSelector[^<]*</script>)(?=.*?\1)', "", "written twice"),
+    (r"<link[^>]*sphinx-thebe\.css[^>]*/>\s*", "", "the same"),
+    (r'<script type="text/x-thebe-config">.*?</script>\s*', "", "the same"),
+    (r"<script>kernelName = [^<]*</script>\s*", "", "the same"),
+    (r"(<script>var togglebuttonSelector[^<]*</script>)(?=.*?\1)", "", "written twice"),
     (r'<meta name="viewport"[^>]*>\s*(?=.*?<meta name="viewport")', "", "written three times"),
-    (r'<div class="bd-sidebar-primary bd-sidebar', r'<div role="complementary" aria-label="The book" class="bd-sidebar-primary bd-sidebar', "no landmark held it"),
+    (
+        r'<div class="bd-sidebar-primary bd-sidebar',
+        r'<div role="complementary" aria-label="The book" class="bd-sidebar-primary bd-sidebar',
+        "no landmark held it",
+    ),
     (r'<summary aria-label="Toggle hidden content">', "<summary>", "the label hid the words that are seen"),
-    (r'<p class="(collapsed|expanded) admonition-title">([^<]*)</p>', r'<span class="\1 admonition-title">\2</span>', "no paragraph fits in a summary"),
+    (r'<summary>(?=<span class="toctree-toggle")', '<summary aria-label="Pages below this one">', "only an icon"),
+    (
+        r'<p class="(collapsed|expanded) admonition-title">([^<]*)</p>',
+        r'<span class="\1 admonition-title">\2</span>',
+        "no paragraph fits in a summary",
+    ),
+    (r"<th([^>]*)></th>", r"<td\1></td>", "a head without words is none"),
     (r' role="doc-biblioentry"', ' role="listitem"', "deprecated, and no child of a list"),
     (r'(id="search-input".*)id="search-input"', r'\1id="search-field"', "the page of the search has the field twice"),
     (r'\s+autocorrect="off"', "", "not yet known to HTML checkers, and nothing is corrected in a search"),
-)  # fmt: skip
+)
 _COMPILED = tuple((re.compile(pattern, re.DOTALL), new) for pattern, new, _ in MENDS)
 
 FRONT_DOOR = """<!DOCTYPE html>

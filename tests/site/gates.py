@@ -34,7 +34,8 @@ WIDER = """() => {
     };
     const out = [...document.body.querySelectorAll("*")].filter(
         element => element.getBoundingClientRect().right > width + 1 && !scrolls(element));
-    return [document.documentElement.scrollWidth + " px wide", ...out.slice(0, 5).map(element => element.outerHTML.slice(0, 120))];
+    const first = out.slice(0, 5).map(element => element.outerHTML.slice(0, 120));
+    return [document.documentElement.scrollWidth + " px wide", ...first];
 }"""
 
 

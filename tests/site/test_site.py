@@ -75,7 +75,8 @@ def test_in_the_browser(name, visit):
             "wider than a phone": page.wider_than_a_phone(),
             "heavier than 1.5 MB": [f"{weight / 1e6:.2f} MB"] if weight > HEAVIEST else [],
         }
-    assert {gate: found for gate, found in problems.items() if found} == {}
+    told = [f"{gate}: {line}" for gate, found in problems.items() for line in found]
+    assert not told, "\n".join(told)
 
 
 def test_two_builds_of_one_source_are_the_same_to_the_byte(tmp_path):
