@@ -79,3 +79,35 @@ lock:
 clean:
 	rm -rf _build book/chapters .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 	find gearpair tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# The gates of the site, in a real browser, and the whole book as one PDF; both bring their own packages and need a
+# Chromium on the PATH (or CHROMIUM=/path/to/it), the gates also Java.
+#   make check-site   build the book, then open every page and check it; SITE_ARGS="-k links" for some of the gates
+#   make pdf          build the book, then print it to _build/gearpair.pdf
+.PHONY: check-site pdf
+SITE_ARGS ?=
+SITE_READY := $(VENV)/.ready-site
+
+check-site: $(SITE_READY) book
+	@GEARPAIR_SITE=_build/html $(RUN) -m pytest tests/site -p no:nbval --override-ini addopts= $(SITE_ARGS)
+	@$(RUN) -m codespell_lib
+
+pdf: $(SITE_READY) book
+	@$(RUN) -m gearpair.study.pdf
+
+$(SITE_READY): $(READY)
+	@echo "Adding the site extra to $(VENV)"
+	@$(RUN) -m pip install --quiet --disable-pip-version-check --constraint requirements.lock \
+		$$($(RUN) -c 'import tomllib; \
+		print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["site"])')
+	@touch $@
+
+#   make check-wheel  build the wheel, install it alone in an empty environment, run the README's example there
+.PHONY: check-wheel
+check-wheel: $(READY)
+	@rm -rf dist $(VENV)-wheel
+	@$(RUN) -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation --wheel-dir dist .
+	@$(PYTHON) -m venv $(VENV)-wheel
+	@$(VENV)-wheel/bin/python -m pip install --quiet --disable-pip-version-check dist/*.whl
+	@$(RUN) tests/check_wheel.py $(VENV)-wheel/bin/python
+	@echo "The wheel works by itself: $$(ls dist)"

@@ -22,13 +22,12 @@ from gearpair.study.chapters import Chapter, read_chapter
 from gearpair.study.claims import claimed
 from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
+from gearpair.study.finishing import finish_site
 from gearpair.study.record import RECORD, versions
 from gearpair.study.side_by_side import execute_all
 from gearpair.study.variants import Variant, read_variants, variant_page, with_variants
 
 EXECUTED = "book/chapters/"
-# MathJax comes with a package, so that a reader's browser fetches nothing; of its 24 MB a page needs these.
-MATHJAX_KEPT = ("tex-chtml.js", "output/chtml/fonts", "input/tex/extensions")
 NOT_SOURCE = ("_build", "tests", "benchmarks", "dist", "build", "chapters", "__pycache__", "*.egg-info", ".*")
 RENDERS = ("sphinx", "jupyter-book", "myst-nb", "sphinx-book-theme", "sphinxcontrib-bibtex", "pydata-sphinx-theme")
 
@@ -54,13 +53,28 @@ class Book:
         writable = os.access(self.root, os.W_OK) and self.root not in _installed()
         return (self.root if writable else Path.cwd()) / "_build"
 
-    def toc(self) -> Any:
+    @property
+    def html(self) -> Path:
+        """The rendered site."""
+        return self.target / "html"
+
+    @property
+    def toc(self) -> dict[str, Any]:
         """The table of contents (the one place that lists pages and chapters)."""
-        return yaml.safe_load((self.root / "_toc.yml").read_text(encoding="utf-8"))
+        return dict(yaml.safe_load((self.root / "_toc.yml").read_text(encoding="utf-8")))
+
+    @property
+    def title(self) -> str:
+        """The book's title."""
+        return str(yaml.safe_load((self.root / "_config.yml").read_text(encoding="utf-8"))["title"])
+
+    def pages(self) -> list[str]:
+        """All pages after the first, in order."""
+        return _files({key: value for key, value in self.toc.items() if key != "root"})
 
     def chapter_names(self) -> list[str]:
         """Names of the chapters, in the order of the table of contents."""
-        return [file.removeprefix(EXECUTED) for file in _files(self.toc()) if file.startswith(EXECUTED)]
+        return [file.removeprefix(EXECUTED) for file in _files(self.toc) if file.startswith(EXECUTED)]
 
     def chapters(self) -> list[Chapter]:
         """All chapters, read."""
@@ -144,8 +158,7 @@ def build_book(book: Book, target: Path | None = None) -> Path:
         made_from = [tree_digest(source), library_digest(), versions(RENDERS)]
         if html.is_dir() and _read_stamp(stamp) == [made_from, tree_digest(html)]:
             return html / "index.html"
-        site = _render(source, staging / "site", book.root)
-        _trim_mathjax(site / "_static" / "mathjax")
+        site = render(source, staging / "site", book)
         _put_in_place(source / EXECUTED, chapters)
         _put_in_place(site, html)
         write_whole(stamp, json.dumps([made_from, tree_digest(html)]))
@@ -168,7 +181,7 @@ def _assemble(book: Book, executed: dict[str, tuple[Chapter | Variant, nbformat.
             notebook = variant_page(page, notebook)
             under.setdefault(EXECUTED + page.chapter.name, []).append(EXECUTED + name)
         nbformat.write(notebook, source / EXECUTED / f"{name}.ipynb")
-    write_toc(source, with_variants(book.toc(), under))
+    write_toc(source, with_variants(book.toc, under))
     return source
 
 
@@ -189,13 +202,21 @@ def write_toc(source: Path, toc: Any) -> None:
     (source / "_toc.yml").write_text(yaml.safe_dump(toc, sort_keys=False), encoding="utf-8")
 
 
-def _render(source: Path, output: Path, root: Path) -> Path:
-    """Build the site, warnings as errors; return where it is."""
+def render(source: Path, output: Path, book: Book) -> Path:
+    """Build the site below `output` from `source`, a copy of the book with its executed chapters; return where it is.
+
+    Raises
+    ------
+    StudyError
+        If there was a warning.
+    """
     code, told = run_jupyter_book(source, output, "--warningiserror", "--keep-going")
     if code:
-        print(told.replace(str(source), str(root)), end="", file=sys.stderr)  # the sources that a user can mend
+        print(told.replace(str(source), str(book.root)), end="", file=sys.stderr)  # the sources that a user can mend
         raise StudyError("the pages did not build without warnings (they are named above); the last book stays")
-    return output / "_build" / "html"
+    site = output / "_build" / "html"
+    finish_site(site, first_page=book.toc["root"], title=book.title)
+    return site
 
 
 def run_jupyter_book(source: Path, output: Path, *options: str) -> tuple[int, str]:
@@ -216,12 +237,6 @@ def _put_in_place(new: Path, old: Path) -> None:
         os.replace(old, aside)
     os.replace(new, old)
     shutil.rmtree(aside, ignore_errors=True)
-
-
-def _trim_mathjax(mathjax: Path) -> None:
-    for path in [*mathjax.rglob("*")]:
-        if path.is_file() and not path.relative_to(mathjax).as_posix().startswith(MATHJAX_KEPT):
-            path.unlink()
 
 
 def accept_outputs(book: Book, *, progress: bool = True) -> list[str]:

@@ -68,7 +68,7 @@ def make_page(
             if cell.cell_type == "markdown":
                 cell.source = LINK.sub(lambda link: link[1] or titles.get(link[2], link[2]), cell.source)
         nbformat.write(executed, notebook)
-        write_toc(source, _without_chapters(book.toc(), f"{EXECUTED}{chapter.name}"))
+        write_toc(source, _without_chapters(book.toc, f"{EXECUTED}{chapter.name}"))
         code, told = run_jupyter_book(source, scratch / "site")
         html = scratch / "site" / "_build" / "html"
         page = html / f"{EXECUTED}{chapter.name}.html"
