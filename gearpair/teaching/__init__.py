@@ -1,7 +1,8 @@
 """What the course's assignments use: a gear pair for every student, and marks for what they answer.
 
-Students import `personal_pair`, `personal_oscillator` and `personal_drive`. The tests of an assignment count with `Marks`.
-The grader takes the answers out of a student's notebook by `report` and `read_report`: plain data, nothing that runs.
+Students import `personal_pair`, `personal_oscillator` and `personal_drive`. The tests of an assignment count with
+`Marks`. The grader takes the answers out of a student's notebook by `report` and `read_report`: plain data, nothing
+that runs.
 """
 
 from gearpair.teaching.answers import Unreadable, read_report, report

@@ -21,8 +21,8 @@ AGREEING = 0.95  # of the points in it, to count as right: a point on a jump may
 class Marks:
     """The marks of one graded cell.
 
-    Its `repr` is what nbgrader reads: the total, once something has been marked. Before that (in the student's notebook,
-    which has no hidden tests) it says whether the answers are there at all.
+    Its `repr` is what nbgrader reads: the total, once something has been marked. Before that (in the student's
+    notebook, which has no hidden tests) it says whether the answers are there at all.
 
     Examples
     --------
@@ -85,8 +85,6 @@ class Marks:
             self._give(name, "close, but not right", HALF * marks, marks)
         elif any(_near(value * 10.0**power, truth, within) for power in range(-12, 13)):
             self._give(name, "right but for a power of ten, look at the unit", HALF * marks, marks)
-        elif _near(-value, truth, within):
-            self._give(name, "the sign is wrong", HALF * marks, marks)
         else:
             self._give(name, "not the right number", 0.0, marks)
 
@@ -132,8 +130,8 @@ class Marks:
         over : tuple of float
             The range of x that the curve must cover.
         marks : float
-            Half of it where the curve is right but covers less than the range, has too few points, or is off by a power of
-            ten.
+            Half of it where the curve is right but covers less than the range, has too few points, or is off by a
+            power of ten.
         within : float
             Largest error, relative to the largest true value.
         points : int
