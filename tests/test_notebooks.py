@@ -22,7 +22,7 @@ NOTEBOOKS = sorted(
     if not {".ipynb_checkpoints", "assignments"} & set(path.parts)  # `make teach` has the assignments
 )
 CHAPTERS = BOOK.chapter_names()
-LONGEST_CELL = 14
+LONGEST_CELL = 14  # lines that are not blank; notebooks/README.md says so too
 
 # What each chapter is run with, beside its defaults, to show that its parameters are live.
 CHANGED = {
