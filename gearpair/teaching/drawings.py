@@ -65,7 +65,8 @@ def drawing(axes: Any) -> Drawing | None:
     curves = [_curve(line.get_label(), *line.get_data()) for line in axes.get_lines()]
     for cloud in axes.collections:
         if hasattr(cloud, "get_offsets"):
-            x, y = np.ma.filled(np.ma.asarray(cloud.get_offsets(), dtype=float), np.nan).reshape(-1, 2).T
+            offsets: Any = np.ma.asarray(cloud.get_offsets(), dtype=float)
+            x, y = offsets.filled(np.nan).T
             curves.append(_curve(cloud.get_label(), x, y))
     return Drawing(tuple(curves), str(axes.get_xlabel()), str(axes.get_ylabel()))
 

@@ -13,7 +13,7 @@ CLASS = [f"student{number:02}" for number in range(40)]
 
 @pytest.mark.xdist_group("class")
 def test_a_class_of_forty_is_graded_in_one_run(courses, record_property):
-    assert len({repr(teaching.personal_pair(student)) for student in CLASS}) == len(CLASS)
+    assert len({repr(teaching.personal_drive(student)) for student in CLASS}) == len(CLASS)
     course = courses("class", NAME)
     for student in CLASS:
         course.submit(NAME, student, course.solution(NAME, student))
