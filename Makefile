@@ -111,3 +111,31 @@ check-wheel: $(READY)
 	@$(VENV)-wheel/bin/python -m pip install --quiet --disable-pip-version-check dist/*.whl
 	@$(RUN) tests/check_wheel.py $(VENV)-wheel/bin/python
 	@echo "The wheel works by itself: $$(ls dist)"
+
+# The course (notebooks/assignments) has an environment of its own, .venv-teach, since nbgrader brings a notebook server:
+#   make teach       grade the whole course headless: reference solutions, mistakes, hostile submissions, a class of forty
+#   make lock-teach  re-make requirements.lock and, in step with it, requirements-teach.lock
+.PHONY: teach lock-teach
+TEACH_VENV := .venv-teach
+TEACH_READY := $(TEACH_VENV)/.ready
+TEACH_ARGS ?=
+
+teach: $(TEACH_READY)
+	@$(TEACH_VENV)/bin/python -m pytest -o addopts= -p no:cacheprovider -n 2 --dist loadgroup tests/teach $(TEACH_ARGS)
+
+$(TEACH_READY): requirements-teach.lock pyproject.toml
+	@$(if $(PYTHON),$(PYTHON),false) -c '$(VERSION_CHECK)' || { echo "gearpair needs Python 3.11 or newer" >&2; exit 1; }
+	@echo "Setting up $(TEACH_VENV) from requirements-teach.lock (a few minutes the first time)"
+	@$(PYTHON) -m venv $(TEACH_VENV)
+	@$(TEACH_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --requirement requirements-teach.lock
+	@$(TEACH_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation \
+		--editable .
+	@$(TEACH_VENV)/bin/python -c 'import matplotlib.font_manager'
+	@echo "Compiling the kernels (about a minute)"
+	@$(TEACH_VENV)/bin/python -m gearpair.study.warm_up
+	@touch $@
+
+lock-teach: lock
+	$(VENV)-lock/bin/uv pip compile pyproject.toml --extra teach --constraint requirements.lock --universal \
+		--python-version 3.11 --quiet --no-emit-index-url --no-emit-find-links --annotation-style line \
+		--custom-compile-command "make lock-teach" --output-file requirements-teach.lock

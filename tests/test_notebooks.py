@@ -17,7 +17,11 @@ from tests.conftest import MEAN, write_notebook
 
 ROOT = Path(__file__).parents[1]
 BOOK = Book(ROOT)
-NOTEBOOKS = sorted(path for path in (ROOT / "notebooks").rglob("*.ipynb") if ".ipynb_checkpoints" not in path.parts)
+NOTEBOOKS = sorted(
+    path
+    for path in (ROOT / "notebooks").rglob("*.ipynb")
+    if not {".ipynb_checkpoints", "assignments"} & set(path.parts)  # `make teach` has the assignments
+)
 CHAPTERS = BOOK.chapter_names()
 LONGEST_CELL = 14  # lines that are not blank; notebooks/README.md says so too
 
