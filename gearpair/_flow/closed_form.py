@@ -90,6 +90,10 @@ def fill_forced(kappa, zeta, omega, width, start, harmonics, forced):
 @kernel
 def add_shifted(forced, t, series):
     """Add to `series` the power series `forced`, expanded about `t`, without its value and slope there."""
+    if t == 0.0:
+        for k in range(2, TERMS):
+            series[k] += forced[k]
+        return
     for k in range(2, TERMS):
         shifted = 0.0
         for n in range(DEGREE, k - 1, -1):

@@ -32,11 +32,12 @@ def start_segment(cells, j, t, x, v, region, series):
         turn = t * width * cells.phase_per_period / cells.period
         c, s = np.cos(turn), np.sin(turn)
         sine, cosine = sine * c + cosine * s, cosine * c - sine * s
-    forced_fourth = 0.0
+    forced_fourth, p, dp = 0.0, 0.0, 0.0
     if cells.forced.shape[0] > 0:
-        # The response to the higher harmonics runs on from the cell's start; what is left is a state without them.
-        p, dp, _ = evaluate(cells.forced[j, contact], t)
-        x, v = x - p, v - dp / width
+        if t > 0.0:
+            # The response to the higher harmonics runs on from the cell's start; what is left is a state without them.
+            p, dp, _ = evaluate(cells.forced[j, contact], t)
+            x, v = x - p, v - dp / width
         forced_fourth = cells.forced_fourths[j, contact]
     expand(cells.bases[level, contact], region, x, v, cells.force, sine, cosine, series)
     if cells.forced.shape[0] > 0:
