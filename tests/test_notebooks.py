@@ -30,6 +30,7 @@ CHANGED = {
     "damping_sweep": {"mesh_frequency": "1.219", "highest": "0.2", "n_values": "51", "n_transient": "1000"},
     "method": {"mesh_frequency": "0.95", "reading": "swapped", "n_starts": "2", "n_values": "11"},
     "reproduction": {"n_values": "31", "n_fine": "51", "n_reached": "8", "phase_step": "60"},
+    "library": {"upper": "0.8", "n_values": "21"},
     "impacts": {"mean_force": "0.3", "reading": "swapped", "n_x": "13", "n_v": "9"},
 }
 # A value that the library refuses, and its sentence.
@@ -43,6 +44,7 @@ REFUSED = {
     "damping_sweep": ("mesh_frequency", "0", "mesh_frequency must be a finite number above 0, got 0.0"),
     "method": ("mesh_frequency", "0", "mesh_frequency must be a finite number above 0, got 0.0"),
     "reproduction": ("n_values", "1", "n_values must be a whole number of at least 2, got 1"),
+    "library": ("damping_ratio", "-1", "damping_ratio must be a finite number at least 0 and at most 100, got -1.0"),
     "impacts": ("error_amplitude", "-1", "error_amplitude must be a finite number at least 0, got -1.0"),
 }
 
