@@ -4,7 +4,7 @@ import numpy as np
 
 from ._kernel import kernel
 from .cells import START, WIDTH
-from .closed_form import TERMS, evaluate
+from .closed_form import DEGREE, TERMS, evaluate
 from .event_search import INSIDE, UNDECIDED, least_step, next_turn
 from .march import (
     ESCAPED,
@@ -17,6 +17,14 @@ from .march import (
     next_segment,
     region_after,
 )
+
+# Columns of a row that `measure` fills; what belongs to a side comes twice, drive first.
+IMPACTS, VELOCITY, VELOCITY_SUM, IMPULSE, SHARE, FORCE = 0, 2, 4, 6, 8, 10
+MEAN, RMS, LOWEST, HIGHEST = 12, 13, 14, 15
+N_MEASURES = 16
+
+# Gauss and Legendre's rule, exact up to degree 31: the square of a segment's power series has degree 30.
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(TERMS)
 
 
 @kernel
@@ -111,3 +119,79 @@ def record(cells, x, v, n_periods, samples_per_period, samples, impacts):
             return ESCAPED, period + 1, crossings
     samples[row, 0], samples[row, 1] = x, v
     return OK, n_periods, crossings
+
+
+@kernel
+def measure(cells, x, v, n_periods, series, row):
+    """Blows, forces and displacements over `n_periods`: the status. Fills `row` (N_MEASURES,).
+
+    Per mesh period: impacts and impulse of each side; shares of the time in contact; the largest and the sum of the
+    approach velocities and the largest mesh force of each side, all as moduli; mean of X, root mean square of X
+    about it, smallest and largest X.
+    """
+    region = first_region(cells, x, v)
+    origin = x  # moments are taken about the start, near the mean: the variance is a small difference
+    first, second = 0.0, 0.0
+    row[:] = 0.0
+    row[LOWEST], row[HIGHEST] = x, x
+    for _ in range(n_periods):
+        events = 0
+        for j in range(cells.level.size):
+            width = cells.clock[j, WIDTH]
+            t = 0.0
+            while True:
+                outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
+                if outcome == UNDECIDED:
+                    return EVENT_UNDECIDED
+                length, square = segment_moments(series, duration, origin)
+                first += length * width
+                second += square * width
+                low, high = segment_extremes(series, duration, np.inf, -np.inf)
+                row[LOWEST], row[HIGHEST] = min(row[LOWEST], low), max(row[HIGHEST], high)
+                if region != 0:
+                    side = 0 if region > 0 else 1
+                    # The basis of contact carries k w^2; its level is that of the cell.
+                    stiffness = -2.0 * cells.bases[cells.level[j], 1, 0, 2] / width**2
+                    press = length + (origin - region) * duration
+                    row[IMPULSE + side] += stiffness * abs(press) * width
+                    row[SHARE + side] += duration * width
+                    deepest = high - 1.0 if region > 0 else -1.0 - low
+                    row[FORCE + side] = max(row[FORCE + side], stiffness * deepest)
+                if outcome == INSIDE:
+                    break
+                t += duration
+                region = region_after(region, x)
+                if region != 0:
+                    side = 0 if region > 0 else 1
+                    row[IMPACTS + side] += 1.0
+                    row[VELOCITY + side] = max(row[VELOCITY + side], abs(v))
+                    row[VELOCITY_SUM + side] += abs(v)
+                events += 1
+                if events > MAX_EVENTS_PER_PERIOD:
+                    return TOO_MANY_EVENTS
+        if not abs(x) + abs(v) <= cells.escape_radius:
+            return ESCAPED
+    span = n_periods * cells.period
+    for side in range(2):
+        row[SHARE + side] /= span
+        row[IMPULSE + side] /= n_periods
+        row[IMPACTS + side] /= n_periods
+        row[VELOCITY_SUM + side] /= n_periods
+    row[MEAN] = origin + first / span
+    row[RMS] = np.sqrt(max(second / span - (first / span) ** 2, 0.0))
+    return OK
+
+
+@kernel
+def segment_moments(series, end, origin):
+    """Integrals of p - origin and of its square over [0, end], exact but for rounding."""
+    first, second = 0.0, 0.0
+    for i in range(TERMS):
+        t = 0.5 * end * (NODES[i] + 1.0)
+        p = series[DEGREE]
+        for n in range(DEGREE - 1, -1, -1):
+            p = p * t + series[n]
+        p -= origin
+        first += WEIGHTS[i] * p
+        second += WEIGHTS[i] * p * p
+    return 0.5 * end * first, 0.5 * end * second

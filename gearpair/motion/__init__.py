@@ -3,6 +3,7 @@
 from gearpair.motion.datasets import symbol
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.initial_conditions import attractor_motions, attractor_states, basins, motion_shares
+from gearpair.motion.measures import ImpactMeasures, impact_measures
 from gearpair.motion.names import CHAOS, Motion, motions_of, periodic
 from gearpair.motion.ranges import (
     MotionRange,
@@ -23,6 +24,7 @@ from gearpair.motion.zero_one import zero_one_test
 
 __all__ = [
     "CHAOS",
+    "ImpactMeasures",
     "ImpactState",
     "Impacts",
     "Motion",
@@ -36,6 +38,7 @@ __all__ = [
     "basins",
     "follow",
     "found_ranges",
+    "impact_measures",
     "impact_state",
     "joined_ranges",
     "lyapunov_exponents",

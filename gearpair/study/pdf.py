@@ -85,7 +85,7 @@ def one_document(book: Book, numbers: Mapping[str, int]) -> str:
     first = BeautifulSoup((book.html / f"{root}.html").read_text(encoding="utf-8"), "html.parser")
     head = "".join(
         _moved(str(tag), root)
-        for tag in first.head.find_all(["link", "script"])
+        for tag in first.select("head link, head script")
         if tag.get("rel") == ["stylesheet"] or "MathJax" in tag.text or "mathjax" in str(tag.get("src"))
     )
     pages = {name: _article(book.html, name) for name in (root, *book.pages())}
@@ -109,12 +109,14 @@ def _article(site: Path, name: str) -> Tag:
         raise StudyError(f"the page {name} has no article to print")
     for tag in article.select(LEFT_OUT):
         tag.decompose()
-    for folded in article.find_all("details"):
-        if "source" in folded.summary.text:  # code that the page hides; folded output is shown
+    for summary in article.select("details > summary"):
+        folded = summary.find_parent("details")
+        assert folded is not None
+        if "source" in summary.text:  # code that the page hides; folded output is shown
             folded.decompose()
         else:
             folded["open"] = ""
-            folded.summary.decompose()
+            summary.decompose()
     for tag in article.find_all(True):
         if tag.get("id"):
             tag["id"] = f"{_slug(name)}--{tag['id']}"
