@@ -38,6 +38,7 @@ CHANGED = {
         **{"n_values": "21", "n_fine": "51", "n_reached": "8", "phase_step": "60"},
         **{"n_search": "51", "n_steps": "2", "n_phases": "2"},
     },
+    "library": {"upper": "0.8", "n_values": "21"},
     "impacts": {"mean_force": "0.3", "reading": "swapped", "n_x": "13", "n_v": "9"},
     "speed_chart": {  # another pair, from another kind of drawing
         **{
@@ -66,6 +67,7 @@ REFUSED = {
         "12",
         "pinion_teeth = 12 is undercut: pinion_shift is 0 and must be at least 0.2981",
     ),
+    "library": ("damping_ratio", "-1", "damping_ratio must be a finite number at least 0 and at most 100, got -1.0"),
     "impacts": ("error_amplitude", "-1", "error_amplitude must be a finite number at least 0, got -1.0"),
 }
 
