@@ -116,7 +116,7 @@ class Marks:
         over: tuple[float, float],
         *,
         marks: float = 1.0,
-        within: float = 1e-2,
+        within: float = 2e-3,
         points: int = 20,
     ) -> None:
         """Mark one curve of a figure by the numbers behind it; the best of its curves counts.

@@ -65,7 +65,7 @@ def test_typical_mistakes_have_the_stated_marks(graded, name):
 
 
 def test_the_numbers_of_another_student_are_worth_little(graded, name):
-    assert graded.marks(name)["copycat"] <= FULL / 3
+    assert graded.marks(name)["copycat"] <= FULL / 2  # what does not depend on the id, and near misses
     assert "the notebook of copycat was worked on with the id 'ada'" in graded.log
 
 
