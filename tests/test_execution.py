@@ -1,6 +1,7 @@
 """A run leaves its output and nothing else, however it ends."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -10,6 +11,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from gearpair.study import claims
 from gearpair.study.claims import claimed
 from gearpair.study.cli import main
 from gearpair.study.errors import StudyError
@@ -137,6 +139,20 @@ def test_a_claim_is_one_at_a_time_and_cleared_of_what_was_left(tmp_path):
     assert left(tmp_path) == []
     with claimed(output):
         pass
+
+
+def test_a_claim_that_was_cleared_before_it_was_locked_is_made_again(tmp_path, monkeypatch):
+    """Another run may end between the opening of the lock and the locking."""
+    lock, cleared = claims._lock, []
+
+    def slow_lock(descriptor):
+        if not cleared:
+            cleared.append(shutil.rmtree(tmp_path / ".out.running"))
+        lock(descriptor)
+
+    monkeypatch.setattr(claims, "_lock", slow_lock)
+    with claimed(tmp_path / "out") as scratch:
+        assert cleared and (scratch / "lock").exists()
 
 
 def test_a_place_that_cannot_be_written_to_is_named(tmp_path):

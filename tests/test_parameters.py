@@ -64,12 +64,14 @@ def test_a_notebooks_other_names_are_no_parameters():
     check_parameters({"gp": object(), "rows": [], "n_found": [1, 2], "osc": None, "In": ["", "%matplotlib inline"]})
 
 
-@pytest.mark.parametrize("later", [[], ["import numpy", "x = 1"]])
-def test_a_name_that_papermill_put_in_must_be_declared(later):
+@pytest.mark.parametrize(
+    ("between", "later"), [([], []), ([], ["import numpy", "x = 1"]), (["%matplotlib inline"], [])]
+)
+def test_a_name_that_papermill_put_in_must_be_declared(between, later):
     injected = "# Parameters\ndamping_ration = 0.05\n"
     with pytest.raises(
         ValueError, match="this chapter has no parameter 'damping_ration'; did you mean 'damping_ratio'?"
     ):
-        check_parameters({"In": ["", DECLARING, injected, *later]})
+        check_parameters({"In": ["", DECLARING, *between, injected, *later]})
     check_parameters({"In": ["", DECLARING, injected.replace("ration", "ratio"), "x = 1"]})
     check_parameters({"In": ["", DECLARING, "damping_ration = 0.05"]})  # typed by hand, no business of ours
