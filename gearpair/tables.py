@@ -125,7 +125,7 @@ def _is_number(cell: str) -> bool:
     return True
 
 
-def motion_table(states: Mapping[str, SteadyState], parameter: str, digits: int = 3) -> Table:
+def motion_table(states: Mapping[Any, SteadyState], parameter: str, digits: int = 3) -> Table:
     """Settled motions by name: the value of a parameter, extremes, impact state, modulus of the larger multiplier.
 
     Of a motion that is not periodic only the value is told: the rest depends on the span that was looked at.
@@ -179,18 +179,11 @@ def coexistence_table(
 ) -> Table:
     """Which stable orbits of a set of branches exist together, one row a range; see `coexistence`."""
     rows = []
-    for low, high, names in coexistence(list(branches), lower, upper, shortest=shortest):
-        counted = Counter(names)
-        words = [name if n == 1 else f"{n} of {name}" for name, n in counted.items()]
-        text = ", ".join(_readable(word) for word in words) or "none up to the longest period followed"
-        rows.append([f"{low:.{digits}f}", f"{high:.{digits}f}", text])
+    for low, high, motions in coexistence(list(branches), lower, upper, shortest=shortest):
+        words = [(f"{m.kind} ({IMPACT_NAMES[m.impact_state or '']})", n) for m, n in Counter(motions).items()]
+        text = ", ".join(word if n == 1 else f"{n} of {word}" for word, n in words)
+        rows.append([f"{low:.{digits}f}", f"{high:.{digits}f}", text or "none up to the longest period followed"])
     return Table(["from", "to", "stable orbits"], rows)
-
-
-def _readable(name: str) -> str:
-    words = name.split()
-    state = IMPACT_NAMES[words[-1]]
-    return " ".join(words[:-1]) + f" ({state})"
 
 
 def cascade_table(cascades: Iterable[Sequence[Bifurcation]], *, digits: int = 6) -> Table:

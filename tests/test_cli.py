@@ -18,7 +18,7 @@ def test_chapters_are_listed_with_their_schema(small_book, capsys):
     )
 
 
-@pytest.mark.parametrize("words", [("-p", "a", "1e-1"), ("-p", "a=0.1"), ("--parameter", "a", "0.1")])
+@pytest.mark.parametrize("words", [("-p", "a", "1e-1"), ("--parameter", "a", "0.1")])
 def test_run_puts_the_value_in_place_of_the_default(small_book, tmp_path, capsys, words):
     output = tmp_path / "out.ipynb"
     assert run(small_book, "run", "small", *words, "-o", str(output)) == 0
@@ -33,7 +33,6 @@ def test_run_puts_the_value_in_place_of_the_default(small_book, tmp_path, capsys
         (["run", "large"], "there is no chapter 'large'; there are small"),
         (["run", "small", "-p", "c", "1"], "small has no parameter 'c'; it has a"),
         (["run", "small", "-p", "a", "much"], "a of small must be a number, got 'much'"),
-        (["run", "small", "-p", "a"], "-p needs a name and a value, got only 'a'"),
         (["run", "small", "-o", "out.html"], "must be a notebook (a name that ends in .ipynb), got 'out.html'"),
         (["run", "small", "-o", "nowhere/out.ipynb"], "there is no directory"),
         (["run", "small", "-o", "{root}/notebooks/small.ipynb"], "is the chapter's own source"),
@@ -49,6 +48,13 @@ def test_bad_input_gets_one_sentence(small_book, tmp_path, monkeypatch, capsys, 
     assert error.startswith("gearpair: ")
     assert error.count("\n") == 1
     assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_a_value_may_be_negative(small_book, tmp_path):
+    output = tmp_path / "out.ipynb"
+    assert run(small_book, "run", "small", "-p", "a", "-1e-1", "-o", str(output)) == 0
+    printed = nbformat.read(output, as_version=4).cells[-1].outputs[0].text
+    assert printed == "0.7995\n"  # 1 - 0.1 * 0.68 - 0.414 * 0.32 = 0.79952
 
 
 def test_a_value_out_of_range_stops_the_run_with_the_librarys_sentence(small_book, tmp_path, capsys):
@@ -67,10 +73,24 @@ def test_a_directory_without_a_book_is_named(tmp_path, capsys):
     assert f"no book here: {tmp_path} has no _toc.yml" in capsys.readouterr().err
 
 
-def test_wrong_usage_exits_with_2():
-    with pytest.raises(SystemExit) as exit_info:
-        main(["paint"])
-    assert exit_info.value.code == 2
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ([], "gearpair: Missing command. See gearpair --help"),
+        (["paint"], "gearpair: No such command 'paint'. See gearpair --help"),
+        (["run"], "gearpair: Missing argument 'CHAPTER'. See gearpair --help"),
+        (["run", "small", "-p", "a"], "gearpair: Option '-p' requires 2 arguments. See gearpair --help"),
+        (["run", "small", "--quick"], "gearpair: No such option '--quick'. See gearpair --help"),
+    ],
+)
+def test_wrong_usage_exits_with_2(words, sentence, capsys):
+    assert main(words) == 2
+    assert capsys.readouterr() == ("", f"{sentence}\n")
+
+
+def test_help_exits_with_0(capsys):
+    assert main(["run", "--help"]) == 0
+    assert "-p, --parameter NAME VALUE" in capsys.readouterr().out
 
 
 def test_accept_stores_outputs_and_finds_nothing_to_do_the_second_time(small_book, capsys):

@@ -6,6 +6,7 @@ import pytest
 import gearpair as gp
 from gearpair import article as hy
 from gearpair.article.trials import MAX_PERIOD
+from gearpair.motion import periodic
 
 
 def test_the_enumeration_is_complete_and_without_repeats():
@@ -80,7 +81,7 @@ def test_trials_are_ranked_and_one_per_pair():
 def test_many_starts_find_both_period_one_and_period_three():
     """At zeta = 0.0075 the swapped reading has a period-1 and a period-3 motion; zeta = 0.02 has period 1 alone."""
     swapped, printed = hy.reached([hy.SWAPPED, hy.PRINTED], "damping_ratio", 5)
-    assert {"1", "3"} <= swapped.motions[1]
+    assert {periodic(1), periodic(3)} <= swapped.motions[1]
     assert swapped.within("D5") == 1.0
     assert swapped.coverage > printed.coverage
 
@@ -134,9 +135,9 @@ def test_runge_kutta_refuses_what_it_cannot_draw(hypothesis, protocol, message):
         hy.runge_kutta_trials([hypothesis], [protocol], 1e-3, 5)
 
 
-def test_each_choice_is_worth_something():
+def test_each_choice_has_its_place_and_mean():
     ranked = hy.ranking(hy.run_trials([hy.PRINTED, hy.SWAPPED], [hy.Protocol("down")], 21))
-    rows = {(row[0], row[1]): row for row in hy.worth(ranked).rows}
+    rows = {(row[0], row[1]): row for row in hy.score_by_choice(ranked).rows}
     assert rows["stiff for", "2 - eps"][2] == "1"
     assert rows["stiff for", "eps - 1"][2] == "2"
     assert rows["phase", "sin"][2] == "1"

@@ -24,9 +24,9 @@ def copied(tmp_path):
     shutil.copytree(FLOW, tmp_path / "flow", ignore=shutil.ignore_patterns("__pycache__"))
     environment = {k: v for k, v in os.environ.items() if not k.startswith("NUMBA")}
 
-    def run(**variables):
+    def run(before="", **variables):
         done = subprocess.run(
-            [sys.executable, "-c", COUNT],
+            [sys.executable, "-c", before + COUNT],
             cwd=tmp_path,
             env=environment | variables,
             capture_output=True,
@@ -34,7 +34,7 @@ def copied(tmp_path):
             check=True,
         )
         count, hits = map(int, done.stdout.split())
-        return count, hits
+        return (count, hits, done.stderr) if before else (count, hits)
 
     return tmp_path / "flow", run
 
@@ -74,6 +74,30 @@ def test_a_package_that_cannot_be_written_to_is_cached_for_the_user(copied, tmp_
     assert run(**places) == (11, 1)
     edit(flow / "closed_form.py", "return max(omega, root)", "return 9.0 * (omega + root)")
     assert run(**places) == (110, 0)
+
+
+OTHER_NUMBAS = {
+    "no class of that name": "Cache.__init__ = lambda self, function: None; del caching.IndexDataCacheFile",
+    "no cache at that name": "Dispatcher.enable_caching = lambda self: None",
+    "another kind of cache file": "Cache.__init__ = lambda self, function: vars(self).update(_cache_file=self)",
+    "other arguments": "File.__init__ = lambda self, *, cache_path, filename_base, source_stamp: None",
+}
+PRELUDE = """
+import warnings
+from numba.core import caching
+from numba.core.caching import Cache, IndexDataCacheFile as File
+from numba.core.dispatcher import Dispatcher
+warnings.simplefilter("always")
+"""
+
+
+@pytest.mark.parametrize("change", OTHER_NUMBAS.values(), ids=OTHER_NUMBAS.keys())
+def test_with_another_numba_the_kernels_run_uncached_and_say_so_once(copied, change):
+    flow, run = copied
+    count, hits, stderr = run(PRELUDE + change)
+    assert (count, hits) == (11, 0)
+    assert stderr.count("RuntimeWarning: this numba keeps compiled code in another way") == 1
+    assert not list(flow.rglob("*.nbi"))
 
 
 def test_a_second_process_compiles_nothing():

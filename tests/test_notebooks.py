@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[1]
 BOOK = Book(ROOT)
 NOTEBOOKS = sorted(path for path in (ROOT / "notebooks").rglob("*.ipynb") if ".ipynb_checkpoints" not in path.parts)
 CHAPTERS = BOOK.chapter_names()
-LONGEST_CELL = 14
+LONGEST_CELL = 14  # lines that are not blank; notebooks/README.md says so too
 
 # What each chapter is run with, beside its defaults, to show that its parameters are live.
 CHANGED = {

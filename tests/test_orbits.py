@@ -85,13 +85,30 @@ def test_multipliers_of_known_matrices():
     saddle = np.array([[-3.0, 1.0], [0.0, 0.2]])
     assert np.allclose(multipliers_of(turn), [0.5j, -0.5j])
     assert np.allclose(multipliers_of(saddle), [-3.0, 0.2])
-    assert np.allclose(multipliers_of(np.array([turn, saddle])).shape, (2, 2))
+    assert np.allclose(multipliers_of(np.array([turn, saddle])), [[0.5j, -0.5j], [-3.0, 0.2]])
+    nearly_singular = np.array([[1.0, 1.0], [1.0, 1.0 + 1e-12]])  # the small one is the determinant over the large
+    assert multipliers_of(nearly_singular)[1] == pytest.approx(0.5e-12, rel=1e-3)
 
 
-def test_a_search_that_fails_says_so():
-    """From afar at an unstable frequency Newton's method ends without an orbit, and a remedy is named."""
+def test_a_search_that_fails_says_so_and_describes_no_orbit():
+    """From afar at an unstable frequency Newton's method ends without an orbit: nothing has a stability there."""
     orbit = gp.periodic_orbit(BASELINE.replace(mesh_frequency=1.219), 300.0, 100.0, 7)
-    assert not orbit.converged and "find_orbits" in orbit.status.remedy
+    assert not orbit.converged and orbit.status == "diverged" and "find_orbits" in orbit.status.remedy
+    described = (orbit.stable, orbit.impact_state, orbit.multipliers, orbit.monodromy, orbit.x_min, orbit.x_max)
+    assert described == (None,) * 6 and orbit.contacts is None
+    assert orbit.points.shape == (1, 2) and orbit.residual > 1e-3 and orbit.period == 7
+    assert str(orbit).startswith("no orbit of period 7: Newton's method did not converge")
+    with pytest.raises(ValueError, match="must have converged, got status 'diverged'"):
+        gp.continue_orbit(orbit, "mesh_frequency", 1.2, 1.3)
+
+
+def test_an_orbit_prints_what_it_is():
+    """One line: stability, period, impact state, a point, multipliers."""
+    stable = gp.periodic_orbit(BASELINE, 0.34, -0.25, 2)
+    assert str(stable).startswith("stable orbit of period 2, single_drive, through X = 0.34629, X' = -0.25625: ")
+    unstable = next(o for o in gp.find_orbits(BASELINE, 1, n_starts=100) if not o.stable)
+    assert str(unstable).startswith("unstable orbit of period 1, ")
+    assert f"multipliers {unstable.multipliers[0].real:.4g} and" in str(unstable)
 
 
 @pytest.mark.parametrize("osc", [BASELINE.replace(mesh_frequency=1.219), BASELINE.replace(mesh_frequency=1.5)])

@@ -9,6 +9,7 @@ from matplotlib.colors import to_rgb
 import gearpair as gp
 from gearpair import plotting
 from gearpair.article import published
+from gearpair.motion import periodic
 
 matplotlib.use("Agg")
 
@@ -59,16 +60,15 @@ def test_colours_stay_apart_for_colour_blind_readers():
 def test_bifurcation_diagram_draws_each_cycle_once_in_its_colour(result):
     ax = plotting.bifurcation_diagram(result, title="rising")
     lines = labelled(ax)
+    motions = gp.motion.motions_of(result)
     for name, period in (("period 2", 2), ("period 4", 4)):
-        chosen = gp.motion.motion_names(result) == name
+        chosen = motions == periodic(period)
         x, y = lines[name].get_data()
         shown = np.isfinite(y)
         assert np.array_equal(y[shown], result.x.values[chosen, :period].ravel())
         assert np.array_equal(x[shown], np.repeat(result.mesh_frequency.values[chosen], period))
-        assert lines[name].get_color() == plotting.motion_colour(name)
-    assert np.array_equal(
-        lines["chaos"].get_ydata(), result.x.values[gp.motion.motion_names(result) == "chaos"].ravel()
-    )
+        assert lines[name].get_color() == plotting.MOTION_COLOURS[name]
+    assert np.array_equal(lines["chaos"].get_ydata(), result.x.values[motions == gp.motion.CHAOS].ravel())
     assert r"\Omega_h" in ax.get_xlabel()
     assert legend_texts(ax) == ["period 2", "period 4", "chaos"]
     assert ax.texts[0].get_text() == "rising"
@@ -108,7 +108,7 @@ def test_range_strips_set_runs_under_the_published_ranges(result):
 
 
 def test_range_lanes_give_each_motion_its_lane():
-    found = [gp.motion.MotionRange(0.0, 0.02, "period 1"), gp.motion.MotionRange(0.01, 0.015, "period 3")]
+    found = [gp.motion.MotionRange(0.0, 0.02, periodic(1)), gp.motion.MotionRange(0.01, 0.015, periodic(3))]
     ax = plotting.range_lanes({"published": published.ranges("damping_ratio"), "found": found})
     assert [label.get_text() for label in ax.get_yticklabels()] == ["period 1", "period 3", "chaotic"]
     full = [(bar.get_x(), bar.get_width()) for bar in ax.patches if bar.get_alpha() is None]
@@ -182,7 +182,7 @@ def test_gallery_has_a_row_for_each_motion():
 def test_basins_and_impact_states_colour_every_start(plane):
     ax = plotting.basins(plane)
     assert np.array_equal(ax.collections[0].get_array(), plane.attractor.values + 1)
-    assert legend_texts(ax) == gp.motion.attractor_names(plane)
+    assert legend_texts(ax) == list(map(str, gp.motion.attractor_motions(plane)))
     ax = plotting.impact_states(plane)
     shades = ax.collections[0].get_array()
     assert len(np.unique(shades)) == len(np.unique(plane.impact_state))
@@ -193,7 +193,7 @@ def test_basins_and_impact_states_colour_every_start(plane):
 def test_a_second_attractor_of_a_kind_is_paler(plane):
     twice = plane.isel(attractor_number=[0, 0])
     first, second = plotting.planes.attractor_colours(twice)
-    assert first == pytest.approx(to_rgb(plotting.motion_colour("period 1")))
+    assert first == pytest.approx(to_rgb(plotting.motion_colour(periodic(1))))
     assert sum(second) > sum(first)
 
 

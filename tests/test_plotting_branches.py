@@ -62,6 +62,6 @@ def test_a_period_map_has_one_pixel_for_each_motion():
     pixels = ax.images[0].get_array()
     for i in range(2):
         for j in range(3):
-            name = gp.motion.motion_name(str(grid.status.values[i, j]), int(grid.period.values[i, j]))
-            assert np.allclose(pixels[i, j], to_rgb(plotting.motion_colour(name)))
+            motion = gp.motion.motions_of(grid)[i, j]
+            assert np.allclose(pixels[i, j], to_rgb(plotting.motion_colour(motion)))
     assert ax.get_xlim() == pytest.approx((0.45, 1.95)) and ax.get_ylim() == pytest.approx((0.025, 0.125))

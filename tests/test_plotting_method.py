@@ -18,8 +18,8 @@ def pieces():
 
 
 @pytest.fixture(scope="module")
-def telling(pieces):
-    return gp.methods.telling_segments(pieces)
+def examples(pieces):
+    return gp.methods.certificate_examples(pieces)
 
 
 def line(ax, label):
@@ -70,9 +70,9 @@ def test_certificate_table_counts_every_segment(pieces):
     assert rows[0][2] == "0"
 
 
-def test_recut_cells_change_only_rounding():
+def test_split_levels_change_only_rounding():
     x, v = np.array([-1.0, 0.3, 1.5]), np.array([0.4, 0.0, -0.2])
-    here, there = gp.stroboscopic_map(CHAOTIC, x, v), gp.stroboscopic_map(gp.methods.recut(CHAOTIC), x, v)
+    here, there = gp.stroboscopic_map(CHAOTIC, x, v), gp.stroboscopic_map(gp.methods.split_levels(CHAOTIC), x, v)
     assert np.abs(np.array(here) - np.array(there)).max() < 1e-13
 
 
@@ -109,16 +109,16 @@ def test_numerical_chaos_is_red():
         gp.methods.numerical_chaos(exact, gp.methods.plain_sweep(CHAOTIC, "mesh_frequency", [1.65]))
 
 
-def test_pictures_of_certificates(telling):
-    ax = plotting.certificate(telling["monotone"])
-    np.testing.assert_array_equal(line(ax, "Bézier points").get_xydata(), telling["monotone"].control_points)
-    assert line(ax, "crossing").get_xdata()[0] == telling["monotone"].crossing
-    drawn = line(plotting.interpolation_error(telling["hull"]), "motion - cubic").get_ydata()
+def test_pictures_of_certificates(examples):
+    ax = plotting.certificate(examples["monotone"])
+    np.testing.assert_array_equal(line(ax, "Bézier points").get_xydata(), examples["monotone"].control_points)
+    assert line(ax, "crossing").get_xdata()[0] == examples["monotone"].crossing
+    drawn = line(plotting.interpolation_error(examples["hull"]), "motion - cubic").get_ydata()
     assert 0.0 < np.abs(drawn).max() < 10.0
 
 
-def test_pictures_of_steps(telling):
-    near, crossing = telling["near miss"], telling["crossing by steps"]
+def test_pictures_of_steps(examples):
+    near, crossing = examples["near miss"], examples["crossing by steps"]
     ax = plotting.certified_steps(near)
     assert line(ax, "distance").get_ydata().min() > 0.0
     assert len([drawn for drawn in ax.lines if drawn.get_linestyle() == "--"]) == len(near.certified_steps()[0])

@@ -11,6 +11,7 @@ import pytest
 from gearpair import article as hy
 from gearpair import plotting
 from gearpair.article import published
+from gearpair.motion import periodic
 
 
 @pytest.fixture(autouse=True)
@@ -32,7 +33,7 @@ def test_reached_motions_has_a_box_for_every_range_and_dots_where_reached():
     ax = plotting.reached_motions(reached, title="swapped")
     assert len(ax.patches) == len(published.DAMPING_RANGES)
     assert [label.get_text() for label in ax.get_yticklabels()] == ["chaotic", "period 3", "period 1"]
-    np.testing.assert_allclose(ax.lines[2].get_xdata(), reached.values[reached.has("1")])
+    np.testing.assert_allclose(ax.lines[2].get_xdata(), reached.values[reached.has(periodic(1))])
 
 
 def test_coverage_by_phase():

@@ -59,10 +59,10 @@ def test_ranges_are_contiguous_and_as_printed(parameter, ends, periods, items):
     ranges = published.ranges(parameter)
     assert [ranges[0].lower, *(r.upper for r in ranges)] == ends
     assert all(left.upper == right.lower for left, right in zip(ranges, ranges[1:], strict=False))
-    assert [r.period for r in ranges] == periods
+    assert [r.motion.period for r in ranges] == periods
     assert [r.item for r in ranges] == items
     assert [b.value for b in published.boundaries(parameter)] == ends[1:-1]
-    assert all((r.motion == "periodic") == (r.period is not None) for r in ranges)
+    assert all((r.motion.status == "periodic") == (r.motion.period is not None) for r in ranges)
 
 
 def test_a_value_lies_in_one_range():

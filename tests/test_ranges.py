@@ -8,6 +8,7 @@ import gearpair as gp
 from gearpair.article import published
 
 OSC = gp.Oscillator()
+CHAOS, periodic = gp.motion.CHAOS, gp.motion.periodic
 
 
 def made_up(motions, values, parameter="mesh_frequency"):
@@ -28,7 +29,7 @@ DOWN = made_up([3, 3, 3, 0, 2, 2, 1, 1], np.arange(8.0)[::-1])
 
 
 def test_runs_do_not_depend_on_the_direction():
-    expected = [(0, 2, "period 1"), (3, 3, "period 2"), (4, 5, "chaos"), (6, 7, "period 3")]
+    expected = [(0, 2, periodic(1)), (3, 3, periodic(2)), (4, 5, CHAOS), (6, 7, periodic(3))]
     assert [(r.lower, r.upper, r.motion) for r in gp.motion.motion_ranges(UP)] == expected
     flipped = UP.isel(mesh_frequency=slice(None, None, -1))
     assert gp.motion.motion_ranges(flipped) == gp.motion.motion_ranges(UP)
@@ -37,8 +38,8 @@ def test_runs_do_not_depend_on_the_direction():
 def test_what_two_sweeps_saw_is_joined():
     """Each end is the one that some sweep followed the motion to; chaos has none."""
     found = [(r.lower, r.upper, r.motion) for r in gp.motion.found_ranges(UP, DOWN)]
-    assert found == [(0, 2, "period 1"), (2, 3, "period 2"), (5, 7, "period 3")]
-    assert [r.motion for r in gp.motion.found_ranges(UP, DOWN, narrowest=1.5)] == ["period 1", "period 3"]
+    assert found == [(0, 2, periodic(1)), (2, 3, periodic(2)), (5, 7, periodic(3))]
+    assert [r.motion for r in gp.motion.found_ranges(UP, DOWN, narrowest=1.5)] == [periodic(1), periodic(3)]
 
 
 def test_sweeps_over_two_parameters_are_not_joined():
@@ -50,18 +51,19 @@ def test_sweeps_over_two_parameters_are_not_joined():
 
 def test_representatives_are_the_motions_named():
     result = gp.sweep(OSC, "mesh_frequency", [0.7, 0.71, 0.72, 0.78, 1.2, 1.21, 1.22])
-    shown = gp.motion.representatives(OSC, result, motions=["period 2", "period 17", "chaos"], near={"chaos": 1.219})
-    assert list(shown) == ["period 2", "chaos"]  # no period 17 there
-    assert shown["period 2"].oscillator.mesh_frequency == 0.71
-    assert (shown["chaos"].oscillator.mesh_frequency, shown["chaos"].status) == (1.22, "aperiodic")
+    shown = gp.motion.representatives(OSC, result, motions=[periodic(2), periodic(17), CHAOS], near={CHAOS: 1.219})
+    assert list(shown) == [periodic(2), CHAOS]  # no period 17 there
+    assert shown[periodic(2)].oscillator.mesh_frequency == 0.71
+    assert (shown[CHAOS].oscillator.mesh_frequency, shown[CHAOS].status) == (1.22, "aperiodic")
 
 
 def test_a_chaotic_transient_represents_nothing():
     """A motion that a short transient took for chaos is followed again and turned down when it settles."""
     osc = OSC.replace(damping_ratio=0.0075)
     result = gp.sweep(osc, "mesh_frequency", [0.7], x=0.0, v=0.0)
+    result["status"] = result.status.astype("<U16")  # room for a longer word
     result["status"][:] = "aperiodic"
-    assert gp.motion.representatives(osc, result, motions=["chaos"]) == {}
+    assert gp.motion.representatives(osc, result, motions=[CHAOS]) == {}
 
 
 def test_following_both_ways_keeps_to_one_motion():
@@ -72,7 +74,7 @@ def test_following_both_ways_keeps_to_one_motion():
     assert falling.mesh_frequency.values.tolist() == [0.69, 0.68]
     assert rising.mesh_frequency.values.tolist() == [0.71, 0.72]
     life = gp.motion.range_of(state, "mesh_frequency", np.arange(0.6, 1.0, 0.004))
-    assert life.motion == "period 1"
+    assert life.motion == periodic(1)
     assert 0.90 < life.upper < 0.93
 
 
@@ -88,25 +90,26 @@ def test_a_jump_to_another_motion_of_the_same_period_ends_a_life():
 def test_shares_count_the_starts():
     shares = gp.motion.motion_shares(OSC, "damping_ratio", [0.02], [-2.0, 0.0, 1.0], [0.0])
     assert shares.motion.values.tolist() == ["period 1", "period 2"]
+    assert gp.motion.motions_of(shares).tolist() == [periodic(1), periodic(2)]
     assert shares.share.values.tolist() == [[1 / 3, 2 / 3]]
 
 
-def test_names_of_attractors_leave_out_small_basins():
+def test_motions_of_attractors_leave_out_small_basins():
     plane = gp.basins(OSC, np.linspace(-4, 4, 17), np.linspace(-3, 3, 13))
-    names = gp.motion.attractor_names(plane, 0.1)
-    assert names == ["period 1, double-sided", "period 2, single-sided"]
-    assert len(gp.motion.attractor_names(plane)) > 2
+    motions = gp.motion.attractor_motions(plane, 0.1)
+    assert motions == [periodic(1, gp.ImpactState.DOUBLE), periodic(2, gp.ImpactState.SINGLE_DRIVE)]
+    assert len(gp.motion.attractor_motions(plane)) > 2
 
 
 STATED = (
-    published.Range("A", "mesh_frequency", 0.0, 2.0, "periodic", 1),
-    published.Range("B", "mesh_frequency", 2.0, 4.0, "complex"),
-    published.Range("C", "mesh_frequency", 4.0, 8.0, "periodic", 2),
+    published.Range("A", "mesh_frequency", 0.0, 2.0, periodic(1)),
+    published.Range("B", "mesh_frequency", 2.0, 4.0, published.COMPLEX),
+    published.Range("C", "mesh_frequency", 4.0, 8.0, periodic(2)),
 )
 FOUND = (
-    gp.motion.MotionRange(0.0, 1.5, "period 1"),
-    gp.motion.MotionRange(4.5, 6.5, "period 2"),
-    gp.motion.MotionRange(6.0, 8.0, "period 4"),
+    gp.motion.MotionRange(0.0, 1.5, periodic(1)),
+    gp.motion.MotionRange(4.5, 6.5, periodic(2)),
+    gp.motion.MotionRange(6.0, 8.0, periodic(4)),
 )
 
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from gearpair.article import published
-from gearpair.article.scoring import REACH, label, published_labels, score
+from gearpair.article.scoring import REACH, published_kind, published_motions, score
+from gearpair.motion import periodic
 
 PARAMETERS = ("mesh_frequency", "damping_ratio")
 
@@ -13,7 +14,7 @@ def table(parameter, cuts=None, motions=None, n=2001):
     """A staircase of motions on a fine grid; the published one where nothing is given."""
     ranges = published.ranges(parameter)
     cuts = [b.value for b in published.boundaries(parameter)] if cuts is None else cuts
-    motions = [r.period or 0 for r in ranges] if motions is None else motions
+    motions = [r.motion.period or 0 for r in ranges] if motions is None else motions
     values = np.linspace(ranges[0].lower, ranges[-1].upper, n)
     return values, np.array(motions)[np.searchsorted(cuts, values, side="right")]
 
@@ -23,7 +24,7 @@ def test_the_published_table_scores_one(parameter):
     perfect = score(parameter, *table(parameter))
     assert perfect.agreement == 1.0
     assert perfect.sequence == 1.0
-    assert perfect.labels == published_labels(parameter)
+    assert perfect.motions == published_motions(parameter)
     assert perfect.total == pytest.approx(1.0, abs=2e-3)  # the grid: half a step in each boundary
     assert all(abs(m.distance) < 1e-3 * (values := table(parameter)[0])[-1] for m in perfect.matches), values
 
@@ -42,12 +43,12 @@ def test_a_shifted_boundary_costs_what_the_docstring_says(index, shift):
 
 def test_a_table_of_one_motion():
     one = score("mesh_frequency", *table("mesh_frequency", [], [1]))
-    shares = sum(r.upper - r.lower for r in published.FREQUENCY_RANGES if r.period == 1)
+    shares = sum(r.upper - r.lower for r in published.FREQUENCY_RANGES if r.motion.period == 1)
     assert one.agreement == pytest.approx(shares, abs=1e-3)
     assert one.closeness == 0.0
     assert all(m.found is None and m.distance is None for m in one.matches)
     assert one.sequence == pytest.approx(2 * 1 / (1 + 7))
-    assert one.labels == ("1",)
+    assert one.motions == (periodic(1),)
 
 
 def test_a_missing_range_costs_its_boundaries_and_part_of_the_sequence():
@@ -63,7 +64,7 @@ def test_narrow_runs_are_dropped_and_their_neighbours_merged():
     cuts = [0.5 * (0.7 + 0.799), 0.5 * (0.7 + 0.799) + 0.015, *(b.value for b in published.FREQUENCY_BOUNDARIES)]
     motions = [1, 3, 1, 2, 4, 2, 0, 2, 1]
     found = score("mesh_frequency", *table("mesh_frequency", cuts, motions))
-    assert found.labels == published_labels("mesh_frequency")
+    assert found.motions == published_motions("mesh_frequency")
     assert found.agreement == pytest.approx(1.0 - 0.015, abs=1e-3)
 
 
@@ -76,9 +77,12 @@ def test_which_chaos_it_is_does_not_matter():
     assert score("mesh_frequency", values, noisy) == score("mesh_frequency", values, motions)
 
 
-def test_labels():
-    assert [label(m, "mesh_frequency") for m in (0, 1, 2, 3, 4, 6)] == ["complex", "1", "2", "complex", "4", "complex"]
-    assert [label(m, "damping_ratio") for m in (0, 1, 2, 3, 12)] == ["chaotic", "1", "2", "3", "12"]
+def test_kinds_are_the_article_s():
+    other, none = published.COMPLEX, published.CHAOTIC
+    frequency = [published_kind(period, "mesh_frequency") for period in (0, 1, 2, 3, 4, 6)]
+    assert frequency == [other, periodic(1), periodic(2), other, periodic(4), other]
+    damping = [published_kind(period, "damping_ratio") for period in (0, 1, 2, 3, 12)]
+    assert damping == [none, *map(periodic, (1, 2, 3, 12))]
 
 
 @pytest.mark.parametrize(
@@ -86,7 +90,7 @@ def test_labels():
     [
         ("a", [0.0, 1.0], [1, 1], "got 'a'"),
         ("mesh_frequency", [1.0, 0.9], [1, 1], "must ascend"),
-        ("mesh_frequency", [0.7, 1.0], [1], "one per motion"),
+        ("mesh_frequency", [0.7, 1.0], [1], "one per period"),
         ("mesh_frequency", [0.7], [1], "at least 2"),
     ],
 )

@@ -6,12 +6,13 @@ from scipy.integrate import solve_ivp
 
 import gearpair as gp
 from gearpair._flow.runge_kutta import STEP_TOO_SMALL, TOO_MANY_STEPS, integrate
+from gearpair.methods import Integrator
 from tests.reference import kernel_parameters, right_hand_side
 
 
 def ours(osc, x, v, n_periods, rtol, atol):
     points = np.empty((n_periods + 1, 2))
-    status, steps, calls = integrate(kernel_parameters(osc), x, v, n_periods, rtol, atol, 10**6, points)
+    status, steps, calls = integrate(kernel_parameters(osc), x, v, n_periods, rtol, atol, np.inf, 10**6, points)
     assert status == 0
     return points, steps, calls
 
@@ -58,8 +59,8 @@ def test_only_the_last_points_are_kept():
 def test_a_failure_has_a_status_not_a_hang():
     points = np.empty((2, 2))
     p = kernel_parameters(gp.Oscillator())
-    assert integrate(p, 1.2, 0.0, 1, 1e-30, 1e-30, 10**5, points)[0] == TOO_MANY_STEPS
-    assert integrate(p, 1e308, 1e308, 1, 1e-3, 1e-6, 10**5, points)[0] == STEP_TOO_SMALL
+    assert integrate(p, 1.2, 0.0, 1, 1e-30, 1e-30, np.inf, 10**5, points)[0] == TOO_MANY_STEPS
+    assert integrate(p, 1e308, 1e308, 1, 1e-3, 1e-6, np.inf, 10**5, points)[0] == STEP_TOO_SMALL
     with pytest.raises(RuntimeError, match="RK45 gave up"):
         gp.methods.runge_kutta_section(gp.Oscillator(), 1e308, 1e308, 1)
 
@@ -79,9 +80,78 @@ def test_carried_and_restarted_sweeps_start_where_they_say():
     np.testing.assert_array_equal(carried.x[1], alone[:, 0])
 
 
-def test_apparent_period():
+def test_section_period():
     cycle = np.tile([[1.0, 0.0], [2.0, 0.1], [3.0, 0.2]], (10, 1))
-    assert gp.methods.apparent_period(cycle) == 3
-    assert gp.methods.apparent_period(cycle + 0.004 * np.sin(np.arange(30))[:, None]) == 3
-    assert gp.methods.apparent_period(np.random.default_rng(1).normal(size=(30, 2))) == 0
-    assert gp.methods.apparent_period(np.full((30, 2), np.nan)) == 0
+    assert gp.methods.section_period(cycle) == 3
+    assert gp.methods.section_period(cycle + 0.004 * np.sin(np.arange(30))[:, None]) == 3
+    assert gp.methods.section_period(np.random.default_rng(1).normal(size=(30, 2))) == 0
+    assert gp.methods.section_period(np.full((30, 2), np.nan)) == 0
+
+
+def test_the_largest_step_is_kept_as_scipy_keeps_it():
+    osc, n = THREE_LEVELS, 2
+    run = {"method": "RK45", "rtol": 1e-3, "atol": 1e-6, "max_step": osc.period / 50}
+    stepped = solve_ivp(right_hand_side(osc), (0.0, n * osc.period), (0.9, 0.3), **run)
+    points = np.empty((n + 1, 2))
+    status, steps, _ = integrate(kernel_parameters(osc), 0.9, 0.3, n, 1e-3, 1e-6, osc.period / 50, 10**6, points)
+    assert (status, steps) == (0, len(stepped.t) - 1)
+    np.testing.assert_allclose(points[-1], stepped.y[:, -1], rtol=0.0, atol=1e-10)
+
+
+def textbook(osc, x, v, n_periods, n_steps):
+    """The classical Runge-Kutta method as textbooks have it, time counted afresh in each mesh period."""
+    f, h, y = right_hand_side(osc), osc.period / n_steps, np.array([x, v])
+    for _ in range(n_periods):
+        for i in range(n_steps):
+            # A step's end belongs to the level that begins there: of the next mesh period at the last one.
+            t, end = i * h, (i + 1) * h if i < n_steps - 1 else 0.0
+            k1 = np.array(f(t, y))
+            k2 = np.array(f(t + h / 2, y + h / 2 * k1))
+            k3 = np.array(f(t + h / 2, y + h / 2 * k2))
+            k4 = np.array(f(end, y + h * k3))
+            y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+    return y
+
+
+@pytest.mark.parametrize("n_steps", [1, 23, 37, 101])
+def test_fixed_steps_are_the_textbook_s(n_steps):
+    """Across switches that fall inside steps and contacts that do."""
+    points = Integrator(steps=n_steps).sections([THREE_LEVELS], 0.9, 0.3, 2, 1)
+    np.testing.assert_allclose(points[0, -1], textbook(THREE_LEVELS, 0.9, 0.3, 2, n_steps), rtol=0.0, atol=1e-11)
+
+
+def test_fixed_steps_are_of_order_four_where_nothing_switches_and_of_order_one_where_steps_stride_over_it():
+    steps = np.array([40, 80, 160])
+    slopes = []
+    for osc in (IN_CONTACT, IN_CONTACT.replace(stiffness=gp.StiffnessWave((0.0, 1 / 3), (1.2, 0.9)))):
+        exact = np.array(gp.stroboscopic_map(osc, 4.0, 0.0, n=2))
+        errors = [np.abs(Integrator(steps=int(n)).sections([osc], 4.0, 0.0, 2, 1)[0, -1] - exact).max() for n in steps]
+        slopes.append(-np.polyfit(np.log(steps), np.log(errors), 1)[0])
+    assert slopes[0] == pytest.approx(4.0, abs=0.15)
+    assert slopes[1] == pytest.approx(1.0, abs=0.3)
+
+
+@pytest.mark.parametrize("integrator", [Integrator(steps=30), Integrator(rtol=1e-4)])
+def test_chains_carry_on_and_begin_afresh(integrator):
+    """Two chains of three oscillators: each first starts from (x, v), the others where the one before ended."""
+    oscillators = [THREE_LEVELS.replace(mesh_frequency=omega) for omega in (0.7, 0.8, 0.9)]
+    chained = integrator.sections(oscillators * 2, 0.9, 0.3, 3, 2, chain=3)
+    np.testing.assert_array_equal(chained[:3], chained[3:])
+    x, v = 0.9, 0.3
+    for osc, points in zip(oscillators, chained, strict=False):
+        np.testing.assert_array_equal(points, integrator.sections([osc], x, v, 3, 2)[0])
+        x, v = map(float, points[-1])
+
+
+def test_a_motion_that_escapes_is_blank():
+    """Far too few steps: the method itself is unstable."""
+    assert np.isnan(Integrator(steps=1).sections([THREE_LEVELS.replace(mesh_frequency=0.05)], 5.0, 0.0, 200, 1)).all()
+
+
+@pytest.mark.parametrize(
+    ("settings", "sentence"),
+    [({}, "needs steps or rtol"), ({"steps": 0}, "steps must be"), ({"rtol": -1.0}, "rtol must be")],
+)
+def test_an_integrator_needs_what_it_steps_by(settings, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        Integrator(**settings)

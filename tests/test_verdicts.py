@@ -67,9 +67,9 @@ def test_the_swapped_reading_has_the_published_doubling_to_period_4(swapped_chan
     assert abs(change.value - 0.865) < 0.01
 
 
-def test_nearness_is_certain_for_far_and_impossible_for_exact(swapped_changes):
+def test_distance_is_certain_for_far_and_impossible_for_exact(swapped_changes):
     (fold,) = [b for b in swapped_changes if b.parameter == "damping_ratio" and b.kind == "fold"]
-    distance, chance = hy.nearness("damping_ratio", [fold])
+    distance, chance = hy.distance_from_bifurcations("damping_ratio", [fold])
     expected = np.mean([abs(b.value - fold.value) for b in published.DAMPING_BOUNDARIES])
     assert distance == pytest.approx(expected)
     assert 0.0 < chance < 1.0

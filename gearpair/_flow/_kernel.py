@@ -1,17 +1,22 @@
-"""How every kernel here is compiled, in one place."""
+"""How every kernel here is compiled, in one place; the only one that knows how numba names its cached files."""
 
+import os
+import warnings
+from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
 from numba import njit
-from numba.core.caching import IndexDataCacheFile
 
-# Multiply-adds may be fused; nothing is reordered, and a division by zero gives inf instead of raising.
-OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}, "nogil": True}
+# Multiply-adds may be fused, unless GEARPAIR_FMA=0 asks for the rounding of a processor that has none; nothing is
+# reordered, and a division by zero gives inf instead of raising.
+FUSED = os.environ.get("GEARPAIR_FMA", "1") != "0"
+OPTIONS = {"error_model": "numpy", "fastmath": {"contract"} if FUSED else set(), "nogil": True}
 
 # numba's disk cache looks only at the file a kernel stands in, but a kernel contains those that it calls. So the
 # names of the cached files carry a digest of all sources: after an edit nothing compiled before is found again.
 SOURCES = sha256(b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))).hexdigest()[:16]
+SOURCES += "" if FUSED else "-unfused"
 
 
 def kernel(function, **options):
@@ -21,11 +26,36 @@ def kernel(function, **options):
         compiled = njit(function, cache=True, **options)
     except RuntimeError:  # nowhere to write a cache
         return njit(function, **options)
-    cache = getattr(compiled, "_cache", None)  # without it, NUMBA_DISABLE_JIT has left a plain function
-    if cache is not None:
-        name = f"{cache._impl.filename_base}-{SOURCES}"
-        cache._cache_file = IndexDataCacheFile(cache._cache_path, name, SOURCES)
+    if compiled is function:  # NUMBA_DISABLE_JIT
+        return function
+    try:
+        _name_cache_after_sources(compiled)
+    except (AttributeError, ImportError, TypeError):
+        _say_uncached()
+        return njit(function, **options)
     return compiled
+
+
+def _name_cache_after_sources(compiled):
+    """Put `SOURCES` into the names of the files that `compiled` is cached in: private parts of numba."""
+    from numba.core.caching import IndexDataCacheFile
+
+    cached = compiled._cache
+    if type(cached._cache_file) is not IndexDataCacheFile:
+        raise TypeError("numba keeps its cache in another way")
+    name = f"{cached._impl.filename_base}-{SOURCES}"
+    cached._cache_file = IndexDataCacheFile(cached._cache_path, name, SOURCES)
+
+
+@cache
+def _say_uncached():
+    """Once in a process: a kernel that cannot be told from a stale one is compiled anew."""
+    warnings.warn(
+        "this numba keeps compiled code in another way than gearpair knows: the kernels work, but every process "
+        "compiles them again (a minute); requirements.lock has a numba that avoids it",
+        RuntimeWarning,
+        stacklevel=2,
+    )
 
 
 def inlined_kernel(function):

@@ -1,4 +1,4 @@
-"""What a continuation asks of one oscillator: the period map with its derivative, and a cycle's turning points."""
+"""What a continuation asks of one oscillator: the period map with its derivative, and a cycle with its extrema."""
 
 import numpy as np
 
@@ -13,8 +13,14 @@ from .tangent import march_tangent, newton
 @kernel
 def map_at(p, x, v, period, m):
     """The `period`-fold map of oscillator `p` and its monodromy `m`: (status, x, v)."""
+    return map_of(build_cells(p), x, v, period, m)
+
+
+@kernel
+def map_of(cells, x, v, period, m):
+    """`map_at` of the cells of an oscillator."""
     m[0, 0], m[0, 1], m[1, 0], m[1, 1] = 1.0, 0.0, 0.0, 1.0
-    return march_tangent(build_cells(p), x, v, period, m, np.empty(TERMS))
+    return march_tangent(cells, x, v, period, m, np.empty(TERMS))
 
 
 @kernel
@@ -24,12 +30,24 @@ def plain_map_at(p, x, v, period):
 
 
 @kernel
-def turns_at(p, x, v, period, turns):
-    """Turning points and impacts over `period` mesh periods: (status, n_turns, drive contacts, coast contacts).
+def cycle_at(p, x, v, points, m, extrema):
+    """The cycle of oscillator `p` through (x, v): (status, residual, n_extrema, drive contacts, coast contacts).
 
-    Fills the rows of `turns` (n, 3) with (mesh periods since the start, X, X'') where X' = 0.
+    Fills `points` (period, 2) with X and X' on the section, `m` (2, 2) with the monodromy, and the first n_extrema rows
+    of `extrema` (n, 2) with (mesh periods since the start, X) where X' = 0.
     """
-    cells = build_cells(p)
+    cells, series, period = build_cells(p), np.empty(TERMS), points.shape[0]
+    points[0, 0], points[0, 1] = x, v
+    for i in range(1, period):
+        _status, points[i, 0], points[i, 1] = march(cells, points[i - 1, 0], points[i - 1, 1], 1, series)
+    status, x1, v1 = map_of(cells, x, v, period, m)
+    searched, n, drive, coast = extrema_of(cells, x, v, period, extrema)
+    return max(status, searched), max(abs(x1 - x), abs(v1 - v)), n, drive, coast
+
+
+@kernel
+def extrema_of(cells, x, v, period, extrema):
+    """The extrema of X and the contacts begun over `period` mesh periods: (status, n_extrema, drive, coast)."""
     series = np.empty(TERMS)
     region = first_region(cells, x, v)
     n, drive, coast = 0, 0, 0
@@ -40,7 +58,7 @@ def turns_at(p, x, v, period, turns):
                 outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
                 if outcome == UNDECIDED:
                     return EVENT_UNDECIDED, n, drive, coast
-                n = segment_turns(cells, j, cycle, t, series, duration, turns, n)
+                n = segment_extrema(cells, j, cycle, t, series, duration, extrema, n)
                 if outcome == INSIDE:
                     break
                 t += duration
@@ -51,14 +69,13 @@ def turns_at(p, x, v, period, turns):
 
 
 @kernel
-def segment_turns(cells, j, cycle, start, series, end, turns, n):
-    """Append the turning points of a segment of cell `j` that starts at `start` and lasts `end` (widths)."""
+def segment_extrema(cells, j, cycle, start, series, end, extrema, n):
+    """Append the extrema of a segment of cell `j` that starts at `start` and lasts `end` (widths)."""
     span = cells.clock[j, WIDTH] / cells.period
     t = next_turn(series, 0.0, end)
-    while t <= end and n < turns.shape[0]:
-        turns[n, 0] = cycle + cells.clock[j, START] + (start + t) * span
-        turns[n, 1], _dp, ddp = evaluate(series, t)
-        turns[n, 2] = ddp / cells.clock[j, WIDTH] ** 2
+    while t <= end and n < extrema.shape[0]:
+        extrema[n, 0] = cycle + cells.clock[j, START] + (start + t) * span
+        extrema[n, 1], _slope, _curvature = evaluate(series, t)
         n += 1
         t = next_turn(series, t + least_step(series, end), end)
     return n

@@ -1,8 +1,8 @@
-"""The article's method, for comparison: the Dormand-Prince 5(4) pair with adaptive steps.
+"""The article's method, for comparison: the Dormand-Prince 5(4) pair with adaptive steps; and the classical method.
 
-Step for step what ``scipy.integrate.solve_ivp(method="RK45")`` does (tableau, first step, error norm, step
-factors, quartic interpolant), so that it draws what RK45 would draw, some hundred times sooner. Like
-it, it steps over the discontinuities as it finds them.
+The pair does step for step what ``scipy.integrate.solve_ivp(method="RK45")`` does (tableau, first step, error norm,
+step factors, quartic interpolant), so that it draws what RK45 would draw, some hundred times sooner. Like it, it steps
+over the discontinuities as it finds them. The classical method of order four has fixed steps.
 
 Sources: J. R. Dormand and P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19; the interpolant is L. F. Shampine's,
 Math. Comp. 46 (1986) 135.
@@ -41,7 +41,14 @@ SAFETY, LEAST_FACTOR, LARGEST_FACTOR = 0.9, 0.2, 10.0
 EXPONENT = -1 / 5
 
 # Status of an integration.
-COMPLETE, STEP_TOO_SMALL, TOO_MANY_STEPS = 0, 1, 2
+COMPLETE, STEP_TOO_SMALL, TOO_MANY_STEPS, ESCAPED = 0, 1, 2, 3
+ESCAPE = 1e6  # |X| + |X'| beyond which the classical method gives up
+
+
+@kernel
+def deflection(x):
+    """How far X is beyond the backlash, with its sign: f(X)."""
+    return x - 1.0 if x > 1.0 else x + 1.0 if x < -1.0 else 0.0
 
 
 @kernel
@@ -49,7 +56,7 @@ def acceleration(p, tau, x, v):
     """X'' of oscillator `p` at (tau, x, v)."""
     force = p.mean_force + p.error_amplitude * p.mesh_frequency**2 * np.sin(p.mesh_frequency * tau + p.error_phase)
     force -= 2.0 * p.damping_ratio * v
-    gap = x - 1.0 if x > 1.0 else x + 1.0 if x < -1.0 else 0.0
+    gap = deflection(x)
     if gap == 0.0:
         return force
     mesh = tau * p.mesh_frequency / (2.0 * np.pi)
@@ -119,8 +126,8 @@ def interpolate(slopes, component, start, h, s):
 
 
 @kernel
-def integrate(p, x, v, n_periods, rtol, atol, max_steps, points):
-    """RK45 from (x, v) over `n_periods`: (status, steps taken, calls of the right-hand side).
+def integrate(p, x, v, n_periods, rtol, atol, max_step, max_steps, points):
+    """RK45 from (x, v) over `n_periods` in steps of `max_step` at most: (status, steps taken, calls of the right side).
 
     Fills ``points`` (m, 2) with the last m section points ``tau = n T``, from the start (n = 0) to the end.
     """
@@ -139,7 +146,7 @@ def integrate(p, x, v, n_periods, rtol, atol, max_steps, points):
     section = max(section, first_kept)
     for steps in range(max_steps):
         least = 10.0 * (np.nextafter(tau, np.inf) - tau)
-        h = max(h, least)
+        h = max(min(h, max_step), least)
         rejected = False
         while True:
             if not h >= least:
@@ -169,15 +176,74 @@ def integrate(p, x, v, n_periods, rtol, atol, max_steps, points):
 
 
 @kernel
-def integrate_rows(first, last, lanes, carry, n_periods, rtol, atol, max_steps, points, status, calls):
+def integrate_rows(first, last, lanes, chain, n_periods, rtol, atol, least_steps, max_steps, points, status, calls):
     """`integrate` for lanes `first` to `last`, filling the same rows of `points` (n, m, 2), `status` and `calls` (n,).
 
-    With `carry` each lane starts where the one before it ended, if that is complete.
+    A step is at most the `least_steps`-th part of a mesh period. All but the first of each `chain` lanes start where
+    the one before it ended, if that is complete.
     """
     for i in range(first, last):
         x, v = lanes.starts[i, 0], lanes.starts[i, 1]
-        if carry and i > 0 and status[i - 1] == COMPLETE:
+        if i % chain > 0 and status[i - 1] == COMPLETE:
             x, v = points[i - 1, -1, 0], points[i - 1, -1, 1]
         s = lanes.scalars[i]
         p = Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i])
-        status[i], _steps, calls[i] = integrate(p, x, v, n_periods, rtol, atol, max_steps, points[i])
+        max_step = 2.0 * np.pi / (p.mesh_frequency * least_steps) if least_steps > 0 else np.inf
+        status[i], _steps, calls[i] = integrate(p, x, v, n_periods, rtol, atol, max_step, max_steps, points[i])
+
+
+@kernel
+def tabulate(p, n_steps, forces, levels):
+    """Force and stiffness at every half step of a mesh period, shape (2 n_steps,); the period's end is its start."""
+    half = np.pi / (p.mesh_frequency * n_steps)
+    level = 0
+    for j in range(2 * n_steps):
+        while level + 1 < p.levels.size and p.edges[level + 1] <= j / (2.0 * n_steps):
+            level += 1
+        forces[j], levels[j] = acceleration(p, j * half, 0.0, 0.0), p.levels[level]
+
+
+@kernel
+def integrate_fixed(p, x, v, n_periods, n_steps, points):
+    """The classical Runge-Kutta method with `n_steps` equal steps a mesh period; `points` as in `integrate`: a status.
+
+    The steps begin with the mesh period and take no notice of switches and of contacts.
+    """
+    forces, levels = np.empty(2 * n_steps), np.empty(2 * n_steps)
+    tabulate(p, n_steps, forces, levels)
+    h = 2.0 * np.pi / (p.mesh_frequency * n_steps)
+    first_kept = n_periods + 1 - points.shape[0]
+    for n in range(n_periods + 1):
+        if n >= first_kept:
+            points[n - first_kept, 0], points[n - first_kept, 1] = x, v
+        if n == n_periods:
+            return COMPLETE
+        if not abs(x) + abs(v) < ESCAPE:
+            return ESCAPED
+        for i in range(n_steps):
+            j0, j1, j2 = 2 * i, 2 * i + 1, (2 * i + 2) % (2 * n_steps)
+            a1 = forces[j0] - 2.0 * p.damping_ratio * v - levels[j0] * deflection(x)
+            x2, v2 = x + 0.5 * h * v, v + 0.5 * h * a1
+            a2 = forces[j1] - 2.0 * p.damping_ratio * v2 - levels[j1] * deflection(x2)
+            x3, v3 = x + 0.5 * h * v2, v + 0.5 * h * a2
+            a3 = forces[j1] - 2.0 * p.damping_ratio * v3 - levels[j1] * deflection(x3)
+            x4, v4 = x + h * v3, v + h * a3
+            a4 = forces[j2] - 2.0 * p.damping_ratio * v4 - levels[j2] * deflection(x4)
+            x += h * (v + 2.0 * v2 + 2.0 * v3 + v4) / 6.0
+            v += h * (a1 + 2.0 * a2 + 2.0 * a3 + a4) / 6.0
+    return COMPLETE
+
+
+@kernel
+def integrate_fixed_rows(first, last, lanes, chain, n_periods, n_steps, points, status):
+    """`integrate_fixed` for lanes `first` to `last`, filling the same rows of `points` (n, m, 2) and `status` (n,).
+
+    All but the first of each `chain` lanes start where the one before it ended, if that is complete.
+    """
+    for i in range(first, last):
+        x, v = lanes.starts[i, 0], lanes.starts[i, 1]
+        if i % chain > 0 and status[i - 1] == COMPLETE:
+            x, v = points[i - 1, -1, 0], points[i - 1, -1, 1]
+        s = lanes.scalars[i]
+        p = Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i])
+        status[i] = integrate_fixed(p, x, v, n_periods, n_steps, points[i])

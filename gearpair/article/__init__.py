@@ -1,4 +1,8 @@
-"""What the published article states, how it can be read, and the case about its numbers."""
+"""What the published article states, how it can be read, and the case about its numbers.
+
+A *reading* is one way to understand the article's equation: of its wave alone (`StiffnessWave.rectangular`) or of all
+of it (`Hypothesis`). A *protocol* is one way to draw a diagram; a *trial* is a reading drawn by a protocol.
+"""
 
 from gearpair.article import published
 from gearpair.article.comparison import (
@@ -6,11 +10,11 @@ from gearpair.article.comparison import (
     compare_attractors,
     compare_boundaries,
     compare_ranges,
+    distance_from_bifurcations,
     drawn_boundary,
     nearest,
-    nearness,
 )
-from gearpair.article.existence import Reached, reached
+from gearpair.article.existence import STARTS, Reached, reached
 from gearpair.article.items import (
     boundary_items,
     chaos_items,
@@ -23,7 +27,7 @@ from gearpair.article.items import (
     transient_items,
 )
 from gearpair.article.readings import PRINTED, SWAPPED, Hypothesis, all_hypotheses
-from gearpair.article.scoring import Match, Score, axis, label, published_labels, random_tables, score
+from gearpair.article.scoring import Match, Score, axis, published_kind, published_motions, random_tables, score
 from gearpair.article.trials import (
     Protocol,
     Ranked,
@@ -33,7 +37,7 @@ from gearpair.article.trials import (
     ranking,
     run_trials,
     runge_kutta_trials,
-    worth,
+    score_by_choice,
 )
 from gearpair.article.verdicts import Verdict, judge, judge_number, verdict_table
 
@@ -44,6 +48,7 @@ __all__ = [
     "Protocol",
     "Ranked",
     "Reached",
+    "STARTS",
     "SWAPPED",
     "Score",
     "Trial",
@@ -57,28 +62,28 @@ __all__ = [
     "compare_attractors",
     "compare_boundaries",
     "compare_ranges",
+    "distance_from_bifurcations",
     "drawn_boundary",
     "integrator_items",
     "judge",
     "judge_number",
-    "label",
     "model_items",
     "nearest",
-    "nearness",
     "period_two",
     "periods",
     "published",
-    "published_labels",
+    "published_kind",
+    "published_motions",
     "random_tables",
     "range_items",
     "ranking",
     "reached",
     "route_items",
+    "run_trials",
     "runge_kutta_trials",
     "score",
+    "score_by_choice",
     "start_items",
     "transient_items",
-    "run_trials",
     "verdict_table",
-    "worth",
 ]

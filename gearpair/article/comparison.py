@@ -14,7 +14,8 @@ from gearpair.article.scoring import REACH, axis
 from gearpair.article.trials import Trial
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.motion.datasets import symbol
-from gearpair.motion.initial_conditions import attractor_names
+from gearpair.motion.initial_conditions import attractor_motions
+from gearpair.motion.names import Motion
 from gearpair.motion.ranges import MotionRange
 from gearpair.tables import Table
 
@@ -22,12 +23,12 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def compare_ranges(published: Iterable[Range], found: Sequence[MotionRange], digits: int = 3) -> Table:
+def compare_ranges(stated: Iterable[Range], found: Sequence[MotionRange], digits: int = 3) -> Table:
     """The published ranges beside what was found inside each.
 
     Parameters
     ----------
-    published : iterable of Range
+    stated : iterable of Range
         As `gearpair.published.ranges` gives them.
     found : sequence of MotionRange
         As `found_ranges` gives them.
@@ -41,29 +42,28 @@ def compare_ranges(published: Iterable[Range], found: Sequence[MotionRange], dig
         published as complex or chaotic has none.
     """
     rows = []
-    for stated in published:
+    for each in stated:
         inside = [
-            MotionRange(max(run.lower, stated.lower), min(run.upper, stated.upper), run.motion)
+            MotionRange(max(run.lower, each.lower), min(run.upper, each.upper), run.motion)
             for run in found
-            if run.lower < stated.upper and run.upper > stated.lower
+            if run.lower < each.upper and run.upper > each.lower
         ]
         texts = [f"{run.motion} ({run.lower:.{digits}f}–{run.upper:.{digits}f})" for run in inside]
-        same = sum(run.width for run in inside if run.motion == f"period {stated.period}")
-        share = f"{same / (stated.upper - stated.lower):.0%}" if stated.period else "–"
-        interval = f"{stated.lower:.{digits}f}–{stated.upper:.{digits}f}"
-        name = f"period {stated.period}" if stated.period else stated.motion
-        rows.append([stated.item, interval, name, ", ".join(texts) or "none this wide", share])
+        same = sum(run.width for run in inside if run.motion == each.motion)
+        share = f"{same / (each.upper - each.lower):.0%}" if each.motion.period else "–"
+        interval = f"{each.lower:.{digits}f}–{each.upper:.{digits}f}"
+        rows.append([each.item, interval, each.motion, ", ".join(texts) or "none this wide", share])
     return Table(["item", "range", "published", "periodic motions found", "agreement"], rows)
 
 
 def compare_attractors(
-    published: Iterable[Range], planes: Mapping[float, xr.Dataset], least_share: float, digits: int = 3
+    stated: Iterable[Range], planes: Mapping[float, xr.Dataset], least_share: float, digits: int = 3
 ) -> Table:
     """The published motion at some values of the parameter beside every attractor found there.
 
     Parameters
     ----------
-    published : iterable of Range
+    stated : iterable of Range
         As `gearpair.published.ranges` gives them.
     planes : mapping of float to xarray.Dataset
         Of `gearpair.basins`, by the value of the parameter.
@@ -76,25 +76,30 @@ def compare_attractors(
     -------
     Table
     """
-    ranges = list(published)
+    ranges = list(stated)
     rows = []
     for value, plane in planes.items():
-        stated = next((r for r in ranges if value in r or value == ranges[-1].upper == r.upper), None)
-        motion = "–" if stated is None else f"period {stated.period}" if stated.period else stated.motion
-        counts = Counter(attractor_names(plane, least_share))
-        texts = [name if count == 1 else f"{name} ({count} of them)" for name, count in counts.items()]
-        rows.append([f"{value:.{digits}f}", stated.item if stated else "–", motion, "; ".join(texts)])
+        here = next((r for r in ranges if value in r or value == ranges[-1].upper == r.upper), None)
+        counts = Counter(attractor_motions(plane, least_share))
+        texts = [str(motion) if count == 1 else f"{motion} ({count} of them)" for motion, count in counts.items()]
+        item, motion = ("–", "–") if here is None else (here.item, str(here.motion))
+        rows.append([f"{value:.{digits}f}", item, motion, "; ".join(texts)])
     return Table([symbol(ranges[0].parameter), "item", "published", "attractors found"], rows)
 
 
 def compare_boundaries(
-    published: Iterable[Boundary], stated: Sequence[Range], found: Sequence[MotionRange], *, gap: float, digits: int = 3
+    boundaries: Iterable[Boundary],
+    stated: Sequence[Range],
+    found: Sequence[MotionRange],
+    *,
+    gap: float,
+    digits: int = 3,
 ) -> Table:
     """The published boundaries beside the nearest change between the same two kinds of motion.
 
     Parameters
     ----------
-    published : iterable of Boundary
+    boundaries : iterable of Boundary
         As `gearpair.published.boundaries` gives them.
     stated : sequence of Range
         The published ranges that they separate.
@@ -112,18 +117,20 @@ def compare_boundaries(
     """
     changes = _changes(found, gap)
     rows = []
-    for boundary, below, above in zip(published, stated[:-1], stated[1:], strict=True):
-        change = tuple(f"period {r.period}" if r.period else "complex" for r in (below, above))
+    for boundary, below, above in zip(boundaries, stated[:-1], stated[1:], strict=True):
+        change = tuple(r.motion if r.motion.period else published.COMPLEX for r in (below, above))
         places = [place for place, kind in changes if kind == change]
         nearest = min(places, key=lambda place: abs(place - boundary.value), default=None)
         shown = (
             ("none", "–") if nearest is None else (f"{nearest:.{digits}f}", f"{nearest - boundary.value:+.{digits}f}")
         )
-        rows.append([boundary.item, f"{boundary.value:.{digits}f}", " to ".join(change), boundary.event or "", *shown])
+        rows.append(
+            [boundary.item, f"{boundary.value:.{digits}f}", " to ".join(map(str, change)), boundary.event or "", *shown]
+        )
     return Table(["item", "published", "change", "said to be", "nearest found", "difference"], rows)
 
 
-def _changes(found: Sequence[MotionRange], gap: float) -> list[tuple[float, tuple[str, str]]]:
+def _changes(found: Sequence[MotionRange], gap: float) -> list[tuple[float, tuple[Motion, Motion]]]:
     """Where one kind of motion gives way to another, the parameter rising; the ends of all found are no changes."""
     if not found:
         return []
@@ -134,9 +141,9 @@ def _changes(found: Sequence[MotionRange], gap: float) -> list[tuple[float, tupl
         before = [other for other in found if abs(other.upper - run.lower) <= gap and other.lower < run.lower]
         changes += [(run.upper, (run.motion, other.motion)) for other in after]
         if not after and run.upper < last:
-            changes.append((run.upper, (run.motion, "complex")))
+            changes.append((run.upper, (run.motion, published.COMPLEX)))
         if not before and run.lower > first:
-            changes.append((run.lower, ("complex", run.motion)))
+            changes.append((run.lower, (published.COMPLEX, run.motion)))
     return changes
 
 
@@ -175,7 +182,9 @@ def boundary_table(
     return Table(columns, rows)
 
 
-def nearness(parameter: str, bifurcations: Iterable[Bifurcation], n: int = 20_000) -> tuple[float, float]:
+def distance_from_bifurcations(
+    parameter: str, bifurcations: Iterable[Bifurcation], n: int = 20_000
+) -> tuple[float, float]:
     """How near the published boundaries lie to folds and flips, and how often boundaries at random lie as near.
 
     Parameters

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from gearpair.article import published
 from gearpair.article.readings import Hypothesis
-from gearpair.article.scoring import axis, label, published_labels
+from gearpair.article.scoring import axis, published_kind, published_motions
 from gearpair.article.trials import MAX_PERIOD
+from gearpair.motion.names import Motion
 from gearpair.motion.settling import SettleSettings, settle_lanes
 
 STARTS = tuple((x, v) for x in (-1.0, 0.0, 1.0, 2.0) for v in (-0.6, 0.0, 0.6))
@@ -26,16 +27,16 @@ class Reached:
     hypothesis : Hypothesis
     parameter : str
     values : ndarray of float, shape (n,)
-    motions : tuple of frozenset of str
-        One set of labels per value, as `gearpair.reproduction.label` gives them.
+    motions : tuple of frozenset of Motion
+        One set per value, in the article's words as `published_kind` gives them.
     """
 
     hypothesis: Hypothesis
     parameter: str
     values: NDArray[np.float64]
-    motions: tuple[frozenset[str], ...]
+    motions: tuple[frozenset[Motion], ...]
 
-    def has(self, motion: str) -> NDArray[np.bool_]:
+    def has(self, motion: Motion) -> NDArray[np.bool_]:
         """Where a motion was reached, shape (n,)."""
         return np.array([motion in there for there in self.motions])
 
@@ -43,7 +44,8 @@ class Reached:
     def published_present(self) -> NDArray[np.bool_]:
         """Where the published motion was reached, shape (n,)."""
         ends = [r.upper for r in published.ranges(self.parameter)[:-1]]
-        expected = np.array(published_labels(self.parameter))[np.searchsorted(ends, self.values, side="right")]
+        motions = published_motions(self.parameter)
+        expected = [motions[k] for k in np.searchsorted(ends, self.values, side="right")]
         return np.array([want in there for want, there in zip(expected, self.motions, strict=True)])
 
     @property
@@ -99,6 +101,8 @@ def reached(
     out = settle_lanes(oscillators, np.tile(starts, (len(oscillators) // len(starts), 1)), settings)
     found = out.period.reshape(len(hypotheses), n_values, len(starts))
     return [
-        Reached(h, parameter, values, tuple(frozenset(label(int(m), parameter) for m in row) for row in found[i]))
+        Reached(
+            h, parameter, values, tuple(frozenset(published_kind(int(m), parameter) for m in row) for row in found[i])
+        )
         for i, h in enumerate(hypotheses)
     ]

@@ -11,7 +11,7 @@ from gearpair.article import published
 from gearpair.article.comparison import drawn_boundary, nearest
 from gearpair.article.existence import Reached
 from gearpair.article.readings import Hypothesis
-from gearpair.article.scoring import axis, label
+from gearpair.article.scoring import axis, published_kind
 from gearpair.article.trials import Trial
 from gearpair.article.verdicts import Verdict, both, judge, judge_number
 from gearpair.bifurcations.branches import continue_orbit
@@ -44,6 +44,7 @@ def model_items(printed: Hypothesis, best: Hypothesis) -> list[Verdict]:
     of_ones = [1.0 + row.a * (row.contact_ratio - 1.0) - row.b * (2.0 - row.contact_ratio) for row in rows]
     swapped = [1.0 + row.a * (2.0 - row.contact_ratio) - row.b * (row.contact_ratio - 1.0) for row in rows]
     orbit = periodic_orbit(best.oscillator(), 0.887, -0.337, 1)
+    assert orbit.multipliers is not None  # it has converged
     shrink = float(np.exp(-2.0 * orbit.oscillator.damping_ratio * orbit.oscillator.period))
     product = float(np.prod(orbit.multipliers).real)
     return [
@@ -104,7 +105,7 @@ def range_items(printed: Sequence[Reached], best: Sequence[Reached]) -> list[Ver
     found = []
     for one, other in zip(printed, best, strict=True):
         for stated in published.ranges(one.parameter):
-            if stated.motion == "chaotic":
+            if stated.motion == published.CHAOTIC:
                 continue  # whether that chaos lasts is `transient_items`'s question
             shares = [reached.within(stated.item) for reached in (one, other)]
             texts = [
@@ -168,7 +169,7 @@ def chaos_items(printed: Hypothesis, best: Hypothesis) -> list[Verdict]:
     """F9, F13, D6, C1 and C2: where chaos is, and what damping does to it."""
     x, v = np.linspace(-1.0, 2.0, 4), np.linspace(-0.6, 0.6, 3)
     values = axis("mesh_frequency", 41)
-    (zone,) = (r for r in published.FREQUENCY_RANGES if r.motion == "complex")
+    (zone,) = (r for r in published.FREQUENCY_RANGES if r.motion == published.COMPLEX)
     texts: dict[str, list[str]] = {item: [] for item in ("F9", "F13", "D6", "C1", "C2")}
     holds: dict[str, list[bool]] = {item: [] for item in texts}
     for hypothesis in (printed, best):
@@ -184,7 +185,7 @@ def chaos_items(printed: Hypothesis, best: Hypothesis) -> list[Verdict]:
         share = float(np.mean(along.status.values == Status.APERIODIC))
         texts["D6"].append("at zeta 0.02 chaos " + ("at some Omega_h" if share else "nowhere"))
         holds["D6"].append(share == 0.0)
-        kinds = len({label(int(m), "mesh_frequency") for m in along.period.values})
+        kinds = len({published_kind(int(m), "mesh_frequency") for m in along.period.values})
         texts["C1"].append(f"{kinds} kinds of motion from 0.7 to 1.7")
         holds["C1"].append(kinds > 2)
         calm = basins(hypothesis.oscillator(), x, v)

@@ -5,8 +5,8 @@ and has tables and prose only; where a field is None, the article is silent.
 
 Examples
 --------
->>> [str(r.period or r.motion) for r in FREQUENCY_RANGES]
-['1', '2', '4', '2', 'complex', '2', '1']
+>>> print(*(r.motion for r in FREQUENCY_RANGES), sep="; ")
+period 1; period 2; period 4; period 2; complex; period 2; period 1
 >>> statement("F14").kind
 'claim'
 """
@@ -16,8 +16,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from gearpair.motion.names import Motion, periodic
+
 Section = Literal["model", "stiffness", "numerics", "frequency", "damping", "impacts", "conclusions"]
-Motion = Literal["periodic", "complex", "chaotic"]
 Kind = Literal["equation", "value", "range", "method", "criterion", "claim"]
 SECTIONS: dict[str, Section] = {
     "M": "model",
@@ -28,6 +29,11 @@ SECTIONS: dict[str, Section] = {
     "I": "impacts",
     "C": "conclusions",
 }
+
+
+# The article's two words for what is not one of its periods: neither says more than that.
+COMPLEX = Motion("complex")  # on the frequency axis: chaotic bands and windows of periods other than 1, 2 and 4 (F8)
+CHAOTIC = Motion("chaotic")  # on the damping axis: no period
 
 
 @dataclass(frozen=True)
@@ -92,9 +98,8 @@ class Range:
         The name of the parameter in `Oscillator`.
     lower, upper : float
         Its ends (dimensionless).
-    motion : {"periodic", "complex", "chaotic"}
-    period : int or None
-        In mesh periods; None unless periodic.
+    motion : Motion
+        A period, `COMPLEX` or `CHAOTIC`.
     spectrum : str or None
         Where the lines of the spectrum lie, in the article's words.
     """
@@ -104,7 +109,6 @@ class Range:
     lower: float
     upper: float
     motion: Motion
-    period: int | None = None
     spectrum: str | None = None
 
     def __contains__(self, value: float) -> bool:
@@ -181,13 +185,13 @@ STIFFNESS_TABLE = (
     StiffnessRow(34, 54, 1.88, 0.131, 0.382),
 )
 FREQUENCY_RANGES = (
-    Range("F1", "mesh_frequency", 0.700, 0.799, "periodic", 1, "n Omega_h"),
-    Range("F3", "mesh_frequency", 0.799, 0.865, "periodic", 2, "n Omega_h / 2"),
-    Range("F5", "mesh_frequency", 0.865, 1.028, "periodic", 4, "n Omega_h / 4"),
-    Range("F7", "mesh_frequency", 1.028, 1.191, "periodic", 2),
-    Range("F8", "mesh_frequency", 1.191, 1.459, "complex"),
-    Range("F10", "mesh_frequency", 1.459, 1.555, "periodic", 2),
-    Range("F11", "mesh_frequency", 1.555, 1.700, "periodic", 1),
+    Range("F1", "mesh_frequency", 0.700, 0.799, periodic(1), "n Omega_h"),
+    Range("F3", "mesh_frequency", 0.799, 0.865, periodic(2), "n Omega_h / 2"),
+    Range("F5", "mesh_frequency", 0.865, 1.028, periodic(4), "n Omega_h / 4"),
+    Range("F7", "mesh_frequency", 1.028, 1.191, periodic(2)),
+    Range("F8", "mesh_frequency", 1.191, 1.459, COMPLEX),
+    Range("F10", "mesh_frequency", 1.459, 1.555, periodic(2)),
+    Range("F11", "mesh_frequency", 1.555, 1.700, periodic(1)),
 )
 FREQUENCY_BOUNDARIES = (
     Boundary("F2", "mesh_frequency", 0.799, "period doubling"),
@@ -201,9 +205,9 @@ COMPLEX_WINDOWS = (3, 6)  # periods of the windows inside the complex zone (F8)
 CHAOTIC_FREQUENCY = 1.219  # where the article shows its chaotic motion, "about" (F9)
 DAMPING_FREQUENCY = 0.7  # the mesh frequency of the damping study (section D) and of the impact study (section I)
 DAMPING_RANGES = (
-    Range("D1", "damping_ratio", 0.0, 0.00275, "chaotic"),
-    Range("D3", "damping_ratio", 0.00275, 0.0165, "periodic", 3, "n Omega_h / 3"),
-    Range("D5", "damping_ratio", 0.0165, 0.025, "periodic", 1),
+    Range("D1", "damping_ratio", 0.0, 0.00275, CHAOTIC),
+    Range("D3", "damping_ratio", 0.00275, 0.0165, periodic(3), "n Omega_h / 3"),
+    Range("D5", "damping_ratio", 0.0165, 0.025, periodic(1)),
 )
 DAMPING_BOUNDARIES = (
     Boundary("D2", "damping_ratio", 0.00275, "crisis"),
@@ -315,8 +319,8 @@ def ranges(parameter: str) -> tuple[Range, ...]:
 
     Examples
     --------
-    >>> [r.period for r in ranges("damping_ratio")]
-    [None, 3, 1]
+    >>> [str(r.motion) for r in ranges("damping_ratio")]
+    ['chaotic', 'period 3', 'period 1']
     """
     found = tuple(r for r in FREQUENCY_RANGES + DAMPING_RANGES if r.parameter == parameter)
     if not found:

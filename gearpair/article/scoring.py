@@ -14,6 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
 from gearpair.article import published
+from gearpair.article.published import CHAOTIC, COMPLEX
+from gearpair.motion.names import Motion, periodic
 
 
 def axis(parameter: str, n_values: int) -> NDArray[np.float64]:
@@ -43,10 +45,10 @@ def random_tables(parameter: str, n: int, *, seed: int = 0, n_values: int = 101)
     3
     """
     values = axis(parameter, n_values)
-    motions = np.array([r.period or 0 for r in published.ranges(parameter)])
-    draw = np.random.default_rng(seed).random((check_count("n", n), len(motions) - 1))
+    periods = np.array([r.motion.period or 0 for r in published.ranges(parameter)])
+    draw = np.random.default_rng(seed).random((check_count("n", n), len(periods) - 1))
     cuts = values[0] + (values[-1] - values[0]) * np.sort(draw, axis=1)
-    return [score(parameter, values, motions[np.searchsorted(row, values, side="right")]) for row in cuts]
+    return [score(parameter, values, periods[np.searchsorted(row, values, side="right")]) for row in cuts]
 
 
 NARROW = 1 / 50  # of the axis: narrower runs are dropped before boundaries and sequence are read off
@@ -86,7 +88,7 @@ class Score:
         Mean over the published boundaries of ``max(0, 1 - distance / (axis / 10))``, 0 where none was found.
     sequence : float
         ``2 L / (m + n)``: L is the longest common subsequence of the two sequences of motions, m and n their lengths.
-    labels : tuple of str
+    motions : tuple of Motion
         The sequence found.
     matches : tuple of Match
         One per published boundary.
@@ -96,7 +98,7 @@ class Score:
     agreement: float
     closeness: float
     sequence: float
-    labels: tuple[str, ...]
+    motions: tuple[Motion, ...]
     matches: tuple[Match, ...]
 
     @property
@@ -105,43 +107,43 @@ class Score:
         return (self.agreement + self.closeness + self.sequence) / 3.0
 
 
-def label(motion: int, parameter: str) -> str:
+def published_kind(period: int, parameter: str) -> Motion:
     """The published table's word for a motion.
 
     Parameters
     ----------
-    motion : int
-        Period in mesh periods, 0 where the motion is not periodic.
+    period : int
+        In mesh periods, 0 where the motion is not periodic.
     parameter : {"mesh_frequency", "damping_ratio"}
 
     Returns
     -------
-    str
-        On the frequency axis ``"1"``, ``"2"``, ``"4"``, and ``"complex"`` for all else: the article's complex zone
-        holds chaotic bands and windows of other periods. On the damping axis the period, and ``"chaotic"`` for none.
+    Motion
+        On the frequency axis period 1, 2 or 4, and `COMPLEX` for all else: the article's complex zone holds chaotic
+        bands and windows of other periods. On the damping axis the period, and `CHAOTIC` for none.
 
     Examples
     --------
-    >>> label(3, "mesh_frequency"), label(3, "damping_ratio"), label(0, "damping_ratio")
-    ('complex', '3', 'chaotic')
+    >>> print(published_kind(3, "mesh_frequency"), published_kind(3, "damping_ratio"), sep="; ")
+    complex; period 3
     """
     if parameter == "mesh_frequency":
-        return str(motion) if motion in (1, 2, 4) else "complex"
-    return str(motion) if motion else "chaotic"
+        return periodic(period) if period in (1, 2, 4) else COMPLEX
+    return periodic(period) if period else CHAOTIC
 
 
-def published_labels(parameter: str) -> tuple[str, ...]:
+def published_motions(parameter: str) -> tuple[Motion, ...]:
     """The published sequence of motions along one parameter.
 
     Examples
     --------
-    >>> published_labels("mesh_frequency")
-    ('1', '2', '4', '2', 'complex', '2', '1')
+    >>> print(*published_motions("damping_ratio"), sep="; ")
+    chaotic; period 3; period 1
     """
-    return tuple(str(r.period or r.motion) for r in published.ranges(parameter))
+    return tuple(r.motion for r in published.ranges(parameter))
 
 
-def score(parameter: str, values: ArrayLike, motions: ArrayLike) -> Score:
+def score(parameter: str, values: ArrayLike, periods: ArrayLike) -> Score:
     """Compare a computed table of motions with the published one.
 
     Parameters
@@ -149,7 +151,7 @@ def score(parameter: str, values: ArrayLike, motions: ArrayLike) -> Score:
     parameter : {"mesh_frequency", "damping_ratio"}
     values : array_like of float, shape (n,)
         Parameter values, ascending, evenly spaced over the published axis.
-    motions : array_like of int, shape (n,)
+    periods : array_like of int, shape (n,)
         The period at each value, 0 where the motion is not periodic.
 
     Returns
@@ -164,8 +166,8 @@ def score(parameter: str, values: ArrayLike, motions: ArrayLike) -> Score:
     Notes
     -----
     The table is a staircase: each value stands for the interval up to the middle between it and its neighbours. Its
-    runs of equal labels, without those narrower than 1/50 of the axis, give the sequence and the boundaries. A
-    published boundary is matched by the nearest computed boundary with the same label on either side; several
+    runs of one motion, without those narrower than 1/50 of the axis, give the sequence and the boundaries. A
+    published boundary is matched by the nearest computed boundary with the same motions on either side; several
     published boundaries may share one.
 
     Examples
@@ -176,17 +178,17 @@ def score(parameter: str, values: ArrayLike, motions: ArrayLike) -> Score:
     (1.0, 1.0, 0.98)
     """
     ranges = published.ranges(parameter)
-    grid, found = np.asarray(values, dtype=float), np.asarray(motions)
+    grid, found = np.asarray(values, dtype=float), np.asarray(periods)
     if grid.ndim != 1 or grid.shape != found.shape or grid.size < 2 or np.any(np.diff(grid) <= 0.0):
-        raise ValueError(f"values of {parameter} must ascend, one per motion, at least 2; got shape {grid.shape}")
-    labels = [label(int(m), parameter) for m in found]
-    expected = published_labels(parameter)
+        raise ValueError(f"values of {parameter} must ascend, one per period, at least 2; got shape {grid.shape}")
+    motions = [published_kind(int(period), parameter) for period in found]
+    expected = published_motions(parameter)
     ends = np.array([r.upper for r in ranges[:-1]])
     agreement = float(
-        np.mean([labels[i] == expected[k] for i, k in enumerate(np.searchsorted(ends, grid, side="right"))])
+        np.mean([motions[i] == expected[k] for i, k in enumerate(np.searchsorted(ends, grid, side="right"))])
     )
     width = ranges[-1].upper - ranges[0].lower
-    runs = _runs(grid, labels, NARROW * width)
+    runs = _runs(grid, motions, NARROW * width)
     matches = []
     for k, boundary in enumerate(published.boundaries(parameter)):
         steps = [
@@ -199,20 +201,20 @@ def score(parameter: str, values: ArrayLike, motions: ArrayLike) -> Score:
     return Score(parameter, agreement, float(np.mean(closeness)), common, sequence, tuple(matches))
 
 
-def _runs(grid: NDArray[np.float64], labels: Sequence[str], narrow: float) -> list[tuple[str, float]]:
-    """Label and lower end of each run that is wide enough, neighbours of one label merged."""
+def _runs(grid: NDArray[np.float64], motions: Sequence[Motion], narrow: float) -> list[tuple[Motion, float]]:
+    """Motion and lower end of each run that is wide enough, neighbours of one motion merged."""
     middles = np.concatenate([[grid[0]], 0.5 * (grid[1:] + grid[:-1]), [grid[-1]]])
-    wide: list[tuple[str, float]] = []
+    wide: list[tuple[Motion, float]] = []
     i = 0
-    for name, group in groupby(labels):
+    for motion, group in groupby(motions):
         n = len(list(group))
-        if middles[i + n] - middles[i] >= narrow and not (wide and wide[-1][0] == name):
-            wide.append((name, float(middles[i])))
+        if middles[i + n] - middles[i] >= narrow and not (wide and wide[-1][0] == motion):
+            wide.append((motion, float(middles[i])))
         i += n
     return wide
 
 
-def _common(a: Sequence[str], b: Sequence[str]) -> int:
+def _common(a: Sequence[Motion], b: Sequence[Motion]) -> int:
     """Length of the longest common subsequence."""
     lengths = [0] * (len(b) + 1)
     for x in a:

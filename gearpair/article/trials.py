@@ -196,8 +196,8 @@ def ranking(done: Iterable[Trial]) -> list[Ranked]:
     return sorted(ranked, key=lambda entry: -entry.mean)
 
 
-def worth(ranked: Sequence[Ranked]) -> Table:
-    """What each single choice is worth: the best place and the mean score of the hypotheses that make it.
+def score_by_choice(ranked: Sequence[Ranked]) -> Table:
+    """For each single choice the best place and the mean score of the hypotheses that make it.
 
     Parameters
     ----------

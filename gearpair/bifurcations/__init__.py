@@ -1,5 +1,6 @@
 """Periodic orbits, stable or not, their branches, and the folds, flips and grazings on them."""
 
+from gearpair.bifurcations._walk import End
 from gearpair.bifurcations.branches import Branch, continue_orbit
 from gearpair.bifurcations.curves import BifurcationCurve, continue_bifurcation
 from gearpair.bifurcations.doubling import doubled_orbit, doubling_cascade
@@ -12,6 +13,7 @@ __all__ = [
     "Bifurcation",
     "BifurcationCurve",
     "Branch",
+    "End",
     "NewtonStatus",
     "PeriodicOrbit",
     "coexistence",

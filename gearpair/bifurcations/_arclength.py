@@ -16,7 +16,7 @@ Equations = Callable[[Vector], tuple[Vector, NDArray[np.float64]] | None]
 NEWTON_STEPS = 12
 QUICK = 4  # Newton steps below which the next arc step may grow
 CLOSE = 1e-11  # convergence: the last Newton step, in scaled unknowns
-WIDEST_TURN = 0.97  # cosine between successive tangents below which a step is repeated, halved
+LEAST_COSINE = 0.97  # between successive tangents, below which a step is repeated, halved
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ def follow(
 ) -> Iterator[Step[Data]]:
     """Walk along the curve from its point `start` towards `direction`; ends where no step converges.
 
-    The step grows after quick convergence and shrinks after none or after a sharp turn.
+    The step grows after quick convergence and shrinks after none or at a sharp bend.
     """
     found = equations(start)
     if found is None:
@@ -85,7 +85,7 @@ def follow(
     size = first
     while size >= smallest:
         corrected = correct(equations, u + size * tangent, tangent)
-        if corrected is None or (corrected[1] @ tangent < WIDEST_TURN and size > 8.0 * smallest):
+        if corrected is None or (corrected[1] @ tangent < LEAST_COSINE and size > 8.0 * smallest):
             size *= 0.5
             continue
         u, tangent, steps = corrected

@@ -1,70 +1,18 @@
-"""The equations of a periodic orbit for continuation, and the orbit as the continuation sees it."""
+"""The equations of a periodic orbit for continuation."""
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._flow.cells import Parameters
-from gearpair._flow.cycle import map_at, plain_map_at, turns_at
+from gearpair._flow.cycle import map_at, plain_map_at
 from gearpair._flow.march import OK
 from gearpair.bifurcations._arclength import Vector
-from gearpair.bifurcations.orbits import MAX_TURNS_PER_PERIOD
+from gearpair.bifurcations._cycle import Cycle, describe_cycle
 from gearpair.oscillator import SCALARS, Oscillator
 
 DIFFERENCE = 1e-6  # relative step of the central difference by a parameter
-
-
-@dataclass(frozen=True)
-class Cycle:
-    """One orbit of a branch as the continuation sees it."""
-
-    points: NDArray[np.float64]
-    monodromy: NDArray[np.float64]
-    x_min: float
-    x_max: float
-    contacts: tuple[int, int]
-    turns: NDArray[np.float64]  # (n, 2): mesh periods since the first point and X where X' = 0
-
-    @property
-    def grazing_turn(self) -> tuple[float, float]:
-        """Of the turning point nearest to a boundary: when it is (mesh periods), and that boundary."""
-        away = np.abs(np.abs(self.turns[:, 1]) - 1.0)
-        when, x = self.turns[np.argmin(away)]
-        return float(when), 1.0 if x > 0.0 else -1.0
-
-    @property
-    def gap(self) -> float:
-        """Signed distance of the turning point nearest to a boundary from it."""
-        return self.gap_of(*self.grazing_turn)
-
-    def gap_of(self, when: float, boundary: float) -> float:
-        """Signed distance from `boundary` of the turning point nearest in time to `when`."""
-        n = len(self.points)
-        apart = np.abs((self.turns[:, 0] - when + 0.5 * n) % n - 0.5 * n)
-        return float(self.turns[np.argmin(apart), 1] - boundary)
-
-    @property
-    def fold_test(self) -> float:
-        """(mu_1 - 1)(mu_2 - 1)."""
-        return float((self.monodromy[0, 0] - 1.0) * (self.monodromy[1, 1] - 1.0) - self._off)
-
-    @property
-    def flip_test(self) -> float:
-        """(mu_1 + 1)(mu_2 + 1)."""
-        return float((self.monodromy[0, 0] + 1.0) * (self.monodromy[1, 1] + 1.0) - self._off)
-
-    @property
-    def half_gap(self) -> Vector:
-        """Difference of the points half a period apart: zero where the period halves; ones for odd periods."""
-        n = len(self.points)
-        return self.points[n // 2] - self.points[0] if n % 2 == 0 else np.ones(2)
-
-    @property
-    def _off(self) -> float:
-        return float(self.monodromy[0, 1] * self.monodromy[1, 0])
 
 
 class OrbitProblem:
@@ -116,14 +64,4 @@ class OrbitProblem:
 
     def cycle(self, u: Vector) -> Cycle:
         """The orbit at a solution `u`."""
-        p = self.parameters(u)
-        points = np.empty((self.period, 2))
-        points[0] = u[:2]
-        for i in range(1, self.period):
-            points[i] = plain_map_at(p, *points[i - 1], 1)[1:]
-        monodromy = np.empty((2, 2))
-        map_at(p, u[0], u[1], self.period, monodromy)
-        turns = np.empty((MAX_TURNS_PER_PERIOD * self.period, 3))
-        _, n, drive, coast = turns_at(p, u[0], u[1], self.period, turns)
-        x = np.concatenate([turns[:n, 1], points[:, 0]])
-        return Cycle(points, monodromy, float(x.min()), float(x.max()), (drive, coast), turns[:n, :2].copy())
+        return describe_cycle(self.parameters(u), u[0], u[1], self.period)

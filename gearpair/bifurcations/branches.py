@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._checks import check_count, check_number
-from gearpair.bifurcations._arclength import Step, Vector, correct, follow
-from gearpair.bifurcations._orbit_problem import Cycle, OrbitProblem
+from gearpair.bifurcations._arclength import Step, Vector
+from gearpair.bifurcations._cycle import Cycle
+from gearpair.bifurcations._orbit_problem import OrbitProblem
+from gearpair.bifurcations._walk import End, walk_both_ways
 from gearpair.bifurcations.locating import Bifurcation, _bifurcations, _merging
 from gearpair.bifurcations.orbits import PeriodicOrbit
 from gearpair.motion.impacts import ImpactState, impact_state
@@ -20,9 +22,9 @@ FIRST_STEP, SMALLEST_STEP, LARGEST_STEP = 2e-3, 1e-9, 2e-2  # in scaled arc leng
 LARGEST_X = 20.0  # where branches that run to infinity, by contact's parametric resonance, are left; see largest_x
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Branch:
-    """A branch of periodic orbits in the order walked; arrays have one row an orbit.
+    """A branch of periodic orbits in the order walked; arrays have one row an orbit, the first again where it closes.
 
     Attributes
     ----------
@@ -38,14 +40,15 @@ class Branch:
     multipliers : ndarray of complex, shape (n, 2)
         The largest modulus first.
     stable : ndarray of bool, shape (n,)
+        Where the branch merges with a shorter orbit, a multiplier is 1: there it is as the orbit next to it.
     x_min, x_max : ndarray of float, shape (n,)
     contacts : ndarray of int, shape (n, 2)
         Contacts per cycle, drive and coast side.
     newton_steps : ndarray of int, shape (n,)
     bifurcations : list of Bifurcation
         In the order met.
-    ends : tuple of str
-        Why the branch ends where it does, at its first and at its last orbit.
+    ends : tuple of End
+        Why the branch ends where it does, at its first and at its last orbit; ``end.remedy`` says what to do.
     """
 
     parameter: str
@@ -60,11 +63,20 @@ class Branch:
     contacts: NDArray[np.int64]
     newton_steps: NDArray[np.int64]
     bifurcations: list[Bifurcation]
-    ends: tuple[str, str]
+    ends: tuple[End, End]
 
     def impact_states(self) -> list[ImpactState]:
         """The impact state of each orbit."""
         return [impact_state(low, high) for low, high in zip(self.x_min.tolist(), self.x_max.tolist(), strict=True)]
+
+    def __repr__(self) -> str:
+        """One line: how long it is, between what, and what lies on it."""
+        first, last = (f"{self.values[i]:.8g} ({end})" for i, end in zip((0, -1), self.ends, strict=True))
+        n = len(self.bifurcations)
+        return (
+            f"branch of {len(self.values)} orbits of period {self.period} with {n} bifurcation{'s' * (n != 1)}, "
+            f"from {self.parameter} = {first} to {last}"
+        )
 
 
 def continue_orbit(
@@ -99,12 +111,14 @@ def continue_orbit(
     ------
     ValueError
         For an orbit that has not converged, an unknown parameter, or a range that leaves out its value.
+    RuntimeError
+        Where the parameter cannot be varied, as a contact ratio next to the end of what is possible.
 
     Notes
     -----
     Pseudo-arclength continuation (Keller, 1977) on the period map with its exact derivative by the state and a central
     difference by the parameter. Folds and flips are zeros of (mu_1 - 1)(mu_2 - 1) and (mu_1 + 1)(mu_2 + 1), grazings
-    zeros of a turning point's distance from X = +-1; each is located by Brent's method along the branch.
+    zeros of an extremum's distance from X = +-1; each is located by Brent's method along the branch.
     Beyond a grazing multipliers move like the square root of the distance, so the steps shrink
     there by themselves.
 
@@ -113,8 +127,8 @@ def continue_orbit(
     >>> from gearpair import periodic_orbit
     >>> orbit = periodic_orbit(Oscillator(mesh_frequency=1.7), 0.8, -0.1, 2)
     >>> branch = continue_orbit(orbit, "mesh_frequency", 1.6, 1.7)
-    >>> branch.ends[1]
-    'reached mesh_frequency = 1.7'
+    >>> [(b.kind, round(b.value, 5)) for b in branch.bifurcations], str(branch.ends[0])
+    ([('flip', 1.6139)], 'bound')
     """
     if not orbit.converged:
         raise ValueError(f"orbit must have converged, got status {str(orbit.status)!r}: {orbit.status.remedy}")
@@ -126,14 +140,16 @@ def continue_orbit(
         )
     check_number("largest_step", largest_step, above=0.0)
     check_count("max_steps", max_steps)
-    problem = OrbitProblem(orbit.oscillator, orbit.period, {parameter: upper - lower})
-    start = problem.unknowns(*orbit.points[0])
-    back, back_end = _walk(problem, start, -1.0, lower, upper, largest_step, max_steps)
-    if back_end == CLOSED:
-        steps, ends = back, (CLOSED, CLOSED)
-    else:
-        forth, forth_end = _walk(problem, start, 1.0, lower, upper, largest_step, max_steps)
-        steps, ends = back[:0:-1] + forth, (back_end, forth_end)
+    problem = _BranchProblem(orbit.oscillator, orbit.period, {parameter: upper - lower})
+    steps, ends = walk_both_ways(
+        problem,
+        problem.unknowns(*orbit.points[0]),
+        [(lower, upper)],
+        first=FIRST_STEP,
+        smallest=SMALLEST_STEP,
+        largest=largest_step,
+        max_steps=max_steps,
+    )
     found = [b for a, c in zip(steps, steps[1:], strict=False) for b in _bifurcations(problem, a, c)]
     cycles = [step.data for step in steps]
     multipliers = multipliers_of(np.array([c.monodromy for c in cycles]).reshape(-1, 2, 2))
@@ -144,7 +160,7 @@ def continue_orbit(
         values=np.array([problem.values(step.u)[0] for step in steps]),
         points=np.array([c.points for c in cycles]),
         multipliers=multipliers,
-        stable=np.abs(multipliers[:, 0]) < 1.0,
+        stable=_stable(multipliers, ends),
         x_min=np.array([c.x_min for c in cycles]),
         x_max=np.array([c.x_max for c in cycles]),
         contacts=np.array([c.contacts for c in cycles]),
@@ -154,55 +170,33 @@ def continue_orbit(
     )
 
 
+def _stable(multipliers: NDArray[np.complex128], ends: tuple[End, End]) -> NDArray[np.bool_]:
+    """Which orbits of a branch are stable; rounding does not decide where it merges."""
+    stable = np.abs(multipliers[:, 0]) < 1.0
+    if ends[0] == End.MERGED:
+        stable[0] = stable[1]
+    if ends[1] == End.MERGED:
+        stable[-1] = stable[-2]
+    return stable
+
+
 def largest_x(osc: Oscillator) -> float:
     """Where a branch is left: `LARGEST_X` times the static position, 1 + |F_m| / (mean stiffness)."""
     return LARGEST_X * (1.0 + abs(osc.mean_force) / osc.stiffness.mean)
 
 
-CLOSED = "closed: the branch returned to its start"
+class _BranchProblem(OrbitProblem):
+    """A branch of orbits: it ends where its orbit merges with a shorter one or grows without bound."""
 
+    def describe(self, u: Vector) -> Cycle:
+        """The orbit at a solution `u`."""
+        return self.cycle(u)
 
-def _walk(
-    problem: OrbitProblem, start: Vector, sign: float, lower: float, upper: float, largest: float, max_steps: int
-) -> tuple[list[Step[Cycle]], str]:
-    """The steps from `start` in one direction, and why they end."""
-    name, scale = problem.names[0], problem.scales[0]
-    limit = largest_x(problem.osc)
-    direction = np.array([0.0, 0.0, sign])
-    steps: list[Step[Cycle]] = []
-    walk = follow(
-        problem.equations, problem.cycle, start, direction, first=FIRST_STEP, smallest=SMALLEST_STEP, largest=largest
-    )
-    for step in walk:
-        value = step.u[2] * scale
-        if steps and not lower <= value <= upper:
-            bound = lower if value < lower else upper
-            edge = _at_value(problem, steps[-1], step, bound)
-            if edge is not None and np.max(np.abs(edge.u - steps[-1].u)) > SMALLEST_STEP:
-                steps.append(edge)
-            return steps, f"reached {name} = {bound:g}"
-        merged = _merging(problem, steps[-1], step) if steps else None
+    def ending(self, last: Step[Cycle], step: Step[Cycle]) -> tuple[list[Step[Cycle]], End] | None:
+        """The end of a walk at `step`, if it is one."""
+        merged = _merging(self, last, step)
         if merged is not None:
-            steps.append(merged)
-            return steps, f"merges at {name} = {merged.u[2] * scale:.8g} with the orbit of half its period (flip)"
-        steps.append(step)
-        if max(-step.data.x_min, step.data.x_max) > limit:
-            return steps, f"grows beyond |X| = {limit:g} at {name} = {value:.8g}"
-        away = np.linalg.norm(step.u - start)
-        if len(steps) > 20 and away < np.linalg.norm(step.u - steps[-2].u) and step.tangent @ steps[0].tangent > 0.5:
-            return steps, CLOSED
-        if len(steps) >= max_steps:
-            return steps, f"stopped after max_steps = {max_steps} steps"
-    return steps, f"no step of {SMALLEST_STEP:g} or more converged beyond {name} = {_last_value(problem, steps):.8g}"
-
-
-def _last_value(problem: OrbitProblem, steps: list[Step[Cycle]]) -> float:
-    return float(problem.values(steps[-1].u)[0]) if steps else problem.osc.parameter(problem.names[0])
-
-
-def _at_value(problem: OrbitProblem, inside: Step[Cycle], outside: Step[Cycle], bound: float) -> Step[Cycle] | None:
-    share = (bound / problem.scales[0] - inside.u[2]) / (outside.u[2] - inside.u[2])
-    guess = inside.u + share * (outside.u - inside.u)
-    guess[2] = bound / problem.scales[0]
-    found = correct(problem.equations, guess, np.array([0.0, 0.0, 1.0]))
-    return Step(*found, problem.cycle(found[0])) if found is not None else None
+            return [merged], End.MERGED
+        if max(-step.data.x_min, step.data.x_max) > largest_x(self.osc):
+            return [step], End.TOO_LARGE
+        return None

@@ -9,17 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._checks import check_count, check_number
-from gearpair.bifurcations._arclength import Step, Vector, correct, follow, null_vector
-from gearpair.bifurcations._orbit_problem import DIFFERENCE, Cycle, OrbitProblem
+from gearpair.bifurcations._arclength import Step, Vector
+from gearpair.bifurcations._orbit_problem import DIFFERENCE, OrbitProblem
+from gearpair.bifurcations._walk import End, walk_both_ways
 from gearpair.bifurcations.locating import TOUCHING, Bifurcation, Kind
 
-LOST = 1e-6  # residual of the bifurcation's equation beyond which its turning point has vanished
+VANISHED = 1e-6  # residual of a bifurcation's equation from which on the extremum that grazed is there no more
 FIRST_STEP, SMALLEST_STEP, LARGEST_STEP = 1e-3, 1e-8, 2e-2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class BifurcationCurve:
-    """A curve of folds, flips or grazings in two parameters; arrays have one row a point.
+    """A curve of folds, flips or grazings in two parameters; arrays have one row a point, the first again if closed.
 
     Attributes
     ----------
@@ -34,8 +35,8 @@ class BifurcationCurve:
         A section point of the orbit.
     residual : ndarray of float, shape (n,)
         The residual of the defining equation.
-    ends : tuple of str
-        Why the curve ends where it does, at its first and at its last point.
+    ends : tuple of End
+        Why the curve ends where it does, at its first and at its last point; ``end.remedy`` says what to do.
     """
 
     kind: Kind
@@ -44,7 +45,18 @@ class BifurcationCurve:
     values: NDArray[np.float64]
     points: NDArray[np.float64]
     residual: NDArray[np.float64]
-    ends: tuple[str, str]
+    ends: tuple[End, End]
+
+    def __repr__(self) -> str:
+        """One line: how long it is, and between what."""
+        first, last = (
+            f"({self.values[i, 0]:.8g}, {self.values[i, 1]:.8g}) ({end})"
+            for i, end in zip((0, -1), self.ends, strict=True)
+        )
+        return (
+            f"{self.kind} curve of period {self.period} with {len(self.values)} points, "
+            f"from ({', '.join(self.parameters)}) = {first} to {last}"
+        )
 
 
 class _CurveProblem(OrbitProblem):
@@ -53,29 +65,27 @@ class _CurveProblem(OrbitProblem):
     def __init__(self, bifurcation: Bifurcation, scales: dict[str, float]) -> None:
         super().__init__(bifurcation.oscillator, bifurcation.period, scales)
         self.kind = bifurcation.kind
-        # At a grazing: which turning point touches which boundary, followed in time from step to step.
-        self.when, self.boundary = self.cycle(self.unknowns(bifurcation.x, bifurcation.v)).grazing_turn
+        # At a grazing: which extremum touches which boundary, followed in time from step to step.
+        self.when, self.boundary = self.cycle(self.unknowns(bifurcation.x, bifurcation.v)).nearest_extremum
 
     def test(self, u: Vector) -> float:
         """The bifurcation's own equation."""
-        cycle: Cycle = self.cycle(u)
+        cycle = self.cycle(u)
         if self.kind == "grazing":
             return cycle.gap_of(self.when, self.boundary)
         return cycle.fold_test if self.kind == "fold" else cycle.flip_test
 
-    def accept(self, u: Vector) -> float:
-        """The residual at a new step, whose turning point is the one to follow from now on."""
-        residual = self.test(u)
-        turns = self.cycle(u).turns
-        near = turns[np.abs(turns[:, 1] - self.boundary) < TOUCHING]
-        if self.kind == "grazing" and len(near):
-            apart = np.abs((near[:, 0] - self.when + 0.5 * self.period) % self.period - 0.5 * self.period)
-            self.when = float(near[np.argmin(apart), 0])
+    def describe(self, u: Vector) -> float:
+        """The residual at a new step, whose extremum is the one to follow from now on."""
+        cycle, residual = self.cycle(u), self.test(u)
+        touching = cycle.extrema[np.abs(cycle.extrema[:, 1] - self.boundary) < TOUCHING, 0]
+        if self.kind == "grazing" and len(touching):
+            self.when = float(touching[np.argmin(cycle.apart(touching, self.when))])
         return residual
 
-    def extended(self, u: Vector) -> tuple[Vector, NDArray[np.float64]] | None:
+    def equations(self, u: Vector) -> tuple[Vector, NDArray[np.float64]] | None:
         """Residual (3,) and Jacobian (3, 4); the last row by central differences."""
-        orbit = self.equations(u)
+        orbit = super().equations(u)
         if orbit is None:
             return None
         row = np.empty(4)
@@ -88,6 +98,10 @@ class _CurveProblem(OrbitProblem):
         except ValueError:
             return None
         return residual, np.vstack([orbit[1], row])
+
+    def ending(self, last: Step[float], step: Step[float]) -> tuple[list[Step[float]], End] | None:
+        """The end of a walk at `step`, if it is one."""
+        return ([], End.LOST) if abs(step.data) > VANISHED else None
 
 
 def continue_bifurcation(
@@ -119,11 +133,22 @@ def continue_bifurcation(
     ------
     ValueError
         For other than two parameters, or bounds that leave out the bifurcation.
+    RuntimeError
+        Where a parameter cannot be varied, as a contact ratio next to the end of what is possible.
 
     Notes
     -----
     The orbit's two equations are extended by (mu_1 - 1)(mu_2 - 1) = 0, (mu_1 + 1)(mu_2 + 1) = 0 or by
-    the turning point's distance from X = +-1 = 0, and followed by pseudo-arclength.
+    the extremum's distance from X = +-1 = 0, and followed by pseudo-arclength.
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, continue_orbit, periodic_orbit
+    >>> orbit = periodic_orbit(Oscillator(), 0.34, -0.25, 2)
+    >>> flip = continue_orbit(orbit, "mesh_frequency", 0.7, 0.77).bifurcations[0]
+    >>> curve = continue_bifurcation(flip, {"mesh_frequency": (0.7, 0.8), "damping_ratio": (0.019, 0.021)})
+    >>> sorted((round(zeta, 5), round(omega, 5)) for omega, zeta in curve.values[[0, -1]].tolist())
+    [(0.019, 0.76766), (0.021, 0.76459)]
     """
     if len(bounds) != 2:
         raise ValueError(f"bounds must name two parameters, got {len(bounds)}: {', '.join(bounds)}")
@@ -136,19 +161,15 @@ def continue_bifurcation(
                 f"bounds of {name} must enclose the bifurcation's {osc.parameter(name)}, got ({lower}, {upper})"
             )
     problem = _CurveProblem(bifurcation, {name: upper - lower for name, (lower, upper) in bounds.items()})
-    start = problem.unknowns(bifurcation.x, bifurcation.v)
-    found = problem.extended(start)
-    if found is None:
-        raise RuntimeError("the motion cannot be followed at the bifurcation")
-    direction = null_vector(found[1])
-    when = problem.when
-    back, back_end = _walk(problem, start, -direction, bounds, largest_step, max_steps)
-    problem.when = when
-    if back_end == CLOSED:
-        steps, ends = back, (CLOSED, CLOSED)
-    else:
-        forth, forth_end = _walk(problem, start, direction, bounds, largest_step, max_steps)
-        steps, ends = back[:0:-1] + forth, (back_end, forth_end)
+    steps, ends = walk_both_ways(
+        problem,
+        problem.unknowns(bifurcation.x, bifurcation.v),
+        list(bounds.values()),
+        first=FIRST_STEP,
+        smallest=SMALLEST_STEP,
+        largest=largest_step,
+        max_steps=max_steps,
+    )
     names = tuple(bounds)
     return BifurcationCurve(
         kind=bifurcation.kind,
@@ -159,48 +180,3 @@ def continue_bifurcation(
         residual=np.array([step.data for step in steps]),
         ends=ends,
     )
-
-
-CLOSED = "closed: the curve returned to its start"
-
-
-def _walk(
-    problem: _CurveProblem,
-    start: Vector,
-    direction: Vector,
-    bounds: Mapping[str, tuple[float, float]],
-    largest: float,
-    max_steps: int,
-) -> tuple[list[Step[float]], str]:
-    steps: list[Step[float]] = []
-    walk = follow(
-        problem.extended, problem.accept, start, direction, first=FIRST_STEP, smallest=SMALLEST_STEP, largest=largest
-    )
-    for step in walk:
-        for k, (name, (lower, upper)) in enumerate(bounds.items()):
-            value = problem.values(step.u)[k]
-            if not lower <= value <= upper:
-                bound = lower if value < lower else upper
-                edge = _at_bound(problem, steps[-1], step, k + 2, bound) if steps else None
-                return steps + ([edge] if edge is not None else []), f"reached {name} = {bound:g}"
-        if abs(step.data) > LOST:
-            break
-        steps.append(step)
-        away = np.linalg.norm(step.u - start)
-        if len(steps) > 20 and away < np.linalg.norm(step.u - steps[-2].u) and step.tangent @ steps[0].tangent > 0.5:
-            return steps, CLOSED
-        if len(steps) >= max_steps:
-            return steps, f"stopped after max_steps = {max_steps} steps"
-    return steps, f"no step of {SMALLEST_STEP:g} or more converged: a degenerate point is near"
-
-
-def _at_bound(
-    problem: _CurveProblem, inside: Step[float], outside: Step[float], k: int, bound: float
-) -> Step[float] | None:
-    """The point of the curve on the bound of unknown `k`, between two steps."""
-    target = bound / problem.scales[k - 2]
-    share = (target - inside.u[k]) / (outside.u[k] - inside.u[k])
-    guess = inside.u + share * (outside.u - inside.u)
-    guess[k] = target
-    found = correct(problem.extended, guess, np.eye(4)[k])
-    return Step(*found, problem.test(found[0])) if found is not None else None

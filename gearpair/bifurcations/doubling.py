@@ -10,7 +10,7 @@ from gearpair.bifurcations._arclength import correct
 from gearpair.bifurcations._orbit_problem import OrbitProblem
 from gearpair.bifurcations.branches import LARGEST_STEP, continue_orbit
 from gearpair.bifurcations.locating import Bifurcation
-from gearpair.bifurcations.orbits import NewtonStatus, PeriodicOrbit, orbit_at
+from gearpair.bifurcations.orbits import PeriodicOrbit, orbit_at
 
 
 def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
@@ -32,6 +32,15 @@ def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
         For another kind.
     RuntimeError
         Where no doubled orbit was found, as when the flip lies on a grazing.
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, periodic_orbit
+    >>> orbit = periodic_orbit(Oscillator(), 0.34, -0.25, 2)
+    >>> flip = continue_orbit(orbit, "mesh_frequency", 0.7, 0.77).bifurcations[0]
+    >>> doubled = doubled_orbit(flip)
+    >>> doubled.period, doubled.stable
+    (4, True)
     """
     if bifurcation.kind != "flip":
         raise ValueError(f"bifurcation must be a flip, got a {bifurcation.kind} at {bifurcation.value}")
@@ -46,7 +55,7 @@ def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
         found = correct(problem.equations, u + distance * normal, normal)
         if found is not None and np.max(np.abs(problem.cycle(found[0]).half_gap)) > distance:
             x, v = found[0][:2].tolist()
-            return orbit_at(problem.oscillator(found[0]), x, v, problem.period, NewtonStatus.CONVERGED)
+            return orbit_at(problem.oscillator(found[0]), x, v, problem.period)
     raise RuntimeError(
         f"no orbit of period {2 * bifurcation.period} was found near the flip at {name} = {bifurcation.value}"
     )
@@ -76,6 +85,14 @@ def doubling_cascade(flip: Bifurcation, levels: int = 5) -> list[Bifurcation]:
     Notes
     -----
     Where nothing interferes the gaps between the flips shrink by 4.669 (Feigenbaum, 1978).
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, periodic_orbit
+    >>> orbit = periodic_orbit(Oscillator(), 0.34, -0.25, 2)
+    >>> first = continue_orbit(orbit, "mesh_frequency", 0.7, 0.77).bifurcations[0]
+    >>> [(flip.period, round(flip.value, 5)) for flip in doubling_cascade(first, 2)]
+    [(2, 0.76601), (4, 0.79829)]
     """
     flips = [flip]
     check_count("levels", levels)

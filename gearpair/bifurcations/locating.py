@@ -9,13 +9,14 @@ from typing import Literal
 import numpy as np
 
 from gearpair.bifurcations._arclength import Step, Vector, between
-from gearpair.bifurcations._orbit_problem import Cycle, OrbitProblem
+from gearpair.bifurcations._cycle import Cycle
+from gearpair.bifurcations._orbit_problem import OrbitProblem
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.oscillator import Oscillator
 
 Kind = Literal["fold", "flip", "grazing"]
 MERGED = 0.1  # where two points pass each other by less than this share of how far they moved, they have met
-TOUCHING = 1e-9  # two points, or a turning point and a boundary, that lie closer than this touch
+TOUCHING = 1e-9  # two points, or an extremum and a boundary, that lie closer than this touch
 
 
 @dataclass(frozen=True)
@@ -124,7 +125,7 @@ def _bifurcations(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> list
 def _grazings(
     problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]
 ) -> list[tuple[Step[Cycle], tuple[int, int], tuple[int, int]]]:
-    """Between two steps with different contacts: bisect until one turning point crosses one boundary, then Brent."""
+    """Between two steps with different contacts: bisect until one extremum crosses one boundary, then Brent."""
     before, after = a.data.contacts, b.data.contacts
     if before == after:
         return []

@@ -11,18 +11,19 @@ from numpy.typing import NDArray
 from gearpair._checks import check_count
 from gearpair._cores import on_all_cores
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.cycle import map_at, newton_starts, turns_at
-from gearpair._flow.march import OK, march
+from gearpair._flow.cycle import newton_starts
+from gearpair._flow.march import march
 from gearpair._flow.tangent import newton
+from gearpair.bifurcations._cycle import describe_cycle
 from gearpair.motion.impacts import ImpactState, impact_state
+from gearpair.motion.names import Motion, periodic
+from gearpair.motion.same_orbit import lies_on
 from gearpair.motion.stability import multipliers_of
 from gearpair.motion.trajectories import check_start, check_starts
 from gearpair.oscillator import Oscillator
 
 SAME_POINT = 1e-9  # section points of one orbit closer than this are one
 STARTS_AT_ONCE = 16  # of Newton searches, between two chances to stop
-SAME_ORBIT = 1e-7  # two orbits whose points lie this close are one
-MAX_TURNS_PER_PERIOD = 64
 
 
 class NewtonStatus(StrEnum):
@@ -41,28 +42,30 @@ class NewtonStatus(StrEnum):
         }[self]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class PeriodicOrbit:
-    """A periodic orbit, stable or not.
+    """A periodic orbit, stable or not; or the best state reached, where Newton's method did not converge.
 
     Attributes
     ----------
     oscillator : Oscillator
     status : NewtonStatus
-        ``"converged"`` or ``"diverged"``; where diverged, the rest describes the best state reached.
+        ``"converged"`` or ``"diverged"``; ``status.remedy`` says what to do.
     period : int
-        The minimal period, in mesh periods; it divides the period asked for.
+        The minimal period, in mesh periods, which divides the period asked for; that one where diverged.
     points : ndarray of float, shape (period, 2)
-        X and X' on the section, in the order visited, from the smallest X.
-    monodromy : ndarray of float, shape (2, 2)
-        The derivative of the period map at ``points[0]``; its determinant is ``exp(-2 zeta period T)``.
-    multipliers : ndarray of complex, shape (2,)
-        Floquet multipliers, the largest modulus first.
+        X and X' on the section, in the order visited, from the smallest X; shape (1, 2), the best state reached, where
+        diverged.
     residual : float
-        Largest component of map(point) - point.
-    x_min, x_max : float
+        Largest component of map(point) - point; inf where the motion could not be followed.
+    monodromy : ndarray of float, shape (2, 2), or None
+        The derivative of the period map at ``points[0]``; its determinant is ``exp(-2 zeta period T)``. This and
+        what follows is None where diverged: what is no orbit has no stability.
+    multipliers : ndarray of complex, shape (2,), or None
+        Floquet multipliers, the largest modulus first.
+    x_min, x_max : float or None
         Extremes of X over the cycle, at exact roots of X'.
-    contacts : tuple of int
+    contacts : tuple of int, or None
         Contacts begun per cycle on the drive and on the coast side.
     """
 
@@ -70,12 +73,12 @@ class PeriodicOrbit:
     status: NewtonStatus
     period: int
     points: NDArray[np.float64]
-    monodromy: NDArray[np.float64]
-    multipliers: NDArray[np.complex128]
     residual: float
-    x_min: float
-    x_max: float
-    contacts: tuple[int, int]
+    monodromy: NDArray[np.float64] | None = None
+    multipliers: NDArray[np.complex128] | None = None
+    x_min: float | None = None
+    x_max: float | None = None
+    contacts: tuple[int, int] | None = None
 
     @property
     def converged(self) -> bool:
@@ -83,14 +86,35 @@ class PeriodicOrbit:
         return self.status == NewtonStatus.CONVERGED
 
     @property
-    def stable(self) -> bool:
-        """Whether both multipliers lie inside the unit circle."""
-        return bool(np.abs(self.multipliers[0]) < 1.0)
+    def stable(self) -> bool | None:
+        """Whether both multipliers lie inside the unit circle; None where Newton's method did not converge."""
+        return None if self.multipliers is None else bool(np.abs(self.multipliers[0]) < 1.0)
 
     @property
-    def impact_state(self) -> ImpactState:
-        """The impact state of the cycle."""
-        return impact_state(self.x_min, self.x_max)
+    def impact_state(self) -> ImpactState | None:
+        """The impact state of the cycle; None where Newton's method did not converge."""
+        return None if self.x_min is None or self.x_max is None else impact_state(self.x_min, self.x_max)
+
+    def __repr__(self) -> str:
+        """One line; it says so where there is no orbit."""
+        x, v = self.points[0]
+        if self.multipliers is None:
+            return (
+                f"no orbit of period {self.period}: Newton's method did not converge, "
+                f"at best to a residual of {self.residual:.1e} at X = {x:.5g}, X' = {v:.5g}"
+            )
+        stability = "stable" if self.stable else "unstable"
+        first, second = self.multipliers
+        pair = f"{first.real:.4g} ± {first.imag:.4g}j" if first.imag else f"{first.real:.4g} and {second.real:.4g}"
+        return (
+            f"{stability} orbit of period {self.period}, {self.impact_state}, "
+            f"through X = {x:.5g}, X' = {v:.5g}: multipliers {pair}"
+        )
+
+    @property
+    def motion(self) -> Motion:
+        """Its period and impact state as one."""
+        return periodic(self.period, self.impact_state)
 
 
 def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> PeriodicOrbit:
@@ -107,7 +131,7 @@ def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> Periodic
     Returns
     -------
     PeriodicOrbit
-        Look at its `status` first.
+        Look at its `status` first: where that is ``"diverged"`` there is no orbit to describe.
 
     Raises
     ------
@@ -116,16 +140,17 @@ def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> Periodic
 
     Examples
     --------
-    >>> orbit = periodic_orbit(Oscillator(), 0.9, -0.3, 1)
-    >>> str(orbit.status), orbit.period, orbit.stable
-    ('converged', 1, False)
+    >>> periodic_orbit(Oscillator(), 0.34, -0.25, 2)
+    stable orbit of period 2, single_drive, through X = 0.34629, X' = -0.25625: multipliers -0.2375 ± 0.6567j
+    >>> print(periodic_orbit(Oscillator(), 300.0, 100.0, 7).stable)
+    None
     """
     x, v = check_start(x, v)
     period = check_count("period", period)
-    converged, x, v, _ = newton(osc._cells, x, v, period, np.empty((2, 2)), np.empty(TERMS))
-    if converged:
-        period = _minimal_period(osc, x, v, period)
-    return orbit_at(osc, x, v, period, NewtonStatus.CONVERGED if converged else NewtonStatus.DIVERGED)
+    converged, x, v, residual = newton(osc._cells, x, v, period, np.empty((2, 2)), np.empty(TERMS))
+    if not converged:
+        return PeriodicOrbit(osc, NewtonStatus.DIVERGED, period, np.array([[x, v]]), residual)
+    return orbit_at(osc, x, v, _minimal_period(osc, x, v, period))
 
 
 def _minimal_period(osc: Oscillator, x: float, v: float, period: int) -> int:
@@ -137,31 +162,24 @@ def _minimal_period(osc: Oscillator, x: float, v: float, period: int) -> int:
     return period
 
 
-def orbit_at(osc: Oscillator, x: float, v: float, period: int, status: NewtonStatus) -> PeriodicOrbit:
+def orbit_at(osc: Oscillator, x: float, v: float, period: int) -> PeriodicOrbit:
     """Describe the orbit of `period` through (x, v), which Newton's method has found."""
-    series = np.empty(TERMS)
-    points = np.empty((period, 2))
-    points[0] = x, v
-    for i in range(1, period):
-        points[i] = march(osc._cells, *points[i - 1], 1, series)[1:]
-    points = np.roll(points, -int(np.argmin(points[:, 0])), axis=0)
-    monodromy = np.empty((2, 2))
-    parameters = osc._flow_parameters
-    code, *end = map_at(parameters, *points[0], period, monodromy)
-    turns = np.empty((MAX_TURNS_PER_PERIOD * period, 3))
-    _, n, drive, coast = turns_at(parameters, *points[0], period, turns)
-    extremes = np.concatenate([turns[:n, 1], points[:, 0]])
+    cycle = describe_cycle(osc._flow_parameters, x, v, period)
+    lowest = int(np.argmin(cycle.points[:, 0]))
+    if lowest:
+        x, v = cycle.points[lowest].tolist()
+        cycle = describe_cycle(osc._flow_parameters, x, v, period)
     return PeriodicOrbit(
         oscillator=osc,
-        status=status,
+        status=NewtonStatus.CONVERGED,
         period=period,
-        points=points,
-        monodromy=monodromy,
-        multipliers=multipliers_of(monodromy),
-        residual=float(np.max(np.abs(end - points[0]))) if code == OK else np.inf,
-        x_min=float(extremes.min()),
-        x_max=float(extremes.max()),
-        contacts=(drive, coast),
+        points=cycle.points,
+        residual=cycle.residual,
+        monodromy=cycle.monodromy,
+        multipliers=multipliers_of(cycle.monodromy),
+        x_min=cycle.x_min,
+        x_max=cycle.x_max,
+        contacts=cycle.contacts,
     )
 
 
@@ -210,11 +228,6 @@ def find_orbits(
         ends, found = np.empty_like(starts), np.zeros(n_starts, np.bool_)
         on_all_cores(newton_starts, (osc._cells, starts, period, ends, found), n_starts, STARTS_AT_ONCE)
         for x_end, v_end in ends[found].tolist():
-            if not any(_passes(orbit, x_end, v_end) for orbit in orbits):
-                shortest = _minimal_period(osc, x_end, v_end, period)
-                orbits.append(orbit_at(osc, x_end, v_end, shortest, NewtonStatus.CONVERGED))
+            if not any(lies_on((x_end, v_end), orbit.points) for orbit in orbits):
+                orbits.append(orbit_at(osc, x_end, v_end, _minimal_period(osc, x_end, v_end, period)))
     return sorted(orbits, key=lambda orbit: (orbit.period, orbit.points[0, 0]))
-
-
-def _passes(orbit: PeriodicOrbit, x: float, v: float) -> bool:
-    return bool(np.any(np.max(np.abs(orbit.points - (x, v)), axis=1) < SAME_ORBIT))

@@ -8,7 +8,8 @@ from gearpair._checks import check_count
 from gearpair.bifurcations.branches import LARGEST_STEP, Branch, continue_orbit, largest_x
 from gearpair.bifurcations.doubling import doubled_orbit
 from gearpair.bifurcations.locating import Bifurcation
-from gearpair.bifurcations.orbits import SAME_ORBIT, PeriodicOrbit, find_orbits, periodic_orbit
+from gearpair.bifurcations.orbits import PeriodicOrbit, find_orbits, periodic_orbit
+from gearpair.motion.same_orbit import lies_on
 from gearpair.oscillator import Oscillator
 
 
@@ -53,6 +54,12 @@ def find_branches(
     ------
     ValueError
         For an argument out of range.
+
+    Examples
+    --------
+    >>> branches = find_branches(Oscillator(damping_ratio=0.1), "mesh_frequency", 0.7, 0.75, max_period=1, n_values=2)
+    >>> [(branch.period, [b.kind for b in branch.bifurcations]) for branch in branches]
+    [(1, ['flip'])]
     """
     branches: list[Branch] = []
     for value in np.linspace(lower, upper, check_count("n_values", n_values)).tolist():
@@ -73,6 +80,7 @@ def _start(
 ) -> PeriodicOrbit | None:
     """The orbit to continue from an orbit or a flip, or None where that leads to nothing new."""
     if isinstance(found, PeriodicOrbit):
+        assert found.x_min is not None and found.x_max is not None  # it has converged
         large = max(-found.x_min, found.x_max) > largest_x(found.oscillator)
         return None if large or any(_on_branch(branch, found) for branch in branches) else found
     for branch in branches:
@@ -97,6 +105,6 @@ def _on_branch(branch: Branch, orbit: PeriodicOrbit) -> bool:
         if np.min(np.max(np.abs(orbit.points - (x, v)), axis=1)) > 0.1:
             continue
         found = periodic_orbit(orbit.oscillator, x, v, orbit.period)
-        if found.converged and np.min(np.max(np.abs(orbit.points - found.points[0]), axis=1)) < SAME_ORBIT:
+        if found.converged and lies_on(found.points[0], orbit.points):
             return True
     return False

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import groupby, pairwise
 
 import numpy as np
 
 from gearpair.bifurcations.branches import Branch
-from gearpair.motion.ranges import MotionRange
+from gearpair.motion.names import Motion, periodic
+from gearpair.motion.ranges import MotionRange, joined_ranges
 
 SNAP = 2e-4  # relative distance within which the end of a stable range is the bifurcation found there
 
 
 def coexistence(
     branches: list[Branch], lower: float, upper: float, *, shortest: float = 0.0
-) -> list[tuple[float, float, tuple[str, ...]]]:
+) -> list[tuple[float, float, tuple[Motion, ...]]]:
     """Which stable orbits of a set of branches exist together, range by range.
 
     Parameters
@@ -28,23 +30,31 @@ def coexistence(
 
     Returns
     -------
-    list of (float, float, tuple of str)
-        Start, end, and the stable orbits there, such as ``("period 1 double", "period 2 single_drive")``.
-        Orbits of one period and impact state on one branch count once each.
+    list of (float, float, tuple of Motion)
+        Start, end, and the stable orbits there with their impact states, in order. Orbits of one period and impact
+        state on one branch count once each.
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, continue_orbit, periodic_orbit
+    >>> branch = continue_orbit(periodic_orbit(Oscillator(), 0.34629, -0.25625, 2), "mesh_frequency", 0.7, 0.8)
+    >>> for low, high, motions in coexistence([branch], 0.7, 0.8):
+    ...     print(f"{low:.3f} {high:.3f}", *motions)
+    0.700 0.766 period 2, single-sided
+    0.766 0.800
     """
-    pieces = [piece for branch in branches for piece in _stable_pieces(branch) if piece[1] - piece[0] >= shortest]
+    pieces = [piece for branch in branches for piece in _stable_pieces(branch) if piece.width >= shortest]
     # A branch that ends close to a bifurcation ends at it.
     located = np.array([b.value for branch in branches for b in branch.bifurcations] or [np.inf])
-    pieces = [(_nearest(located, low), _nearest(located, high), name) for low, high, name in pieces]
-    edges = sorted({lower, upper, *(v for low, high, _ in pieces for v in (low, high) if lower < v < upper)})
-    ranges: list[tuple[float, float, tuple[str, ...]]] = []
-    for left, right in zip(edges, edges[1:], strict=False):
+    pieces = [MotionRange(_nearest(located, p.lower), _nearest(located, p.upper), p.motion) for p in pieces]
+    ends = {end for piece in pieces for end in (piece.lower, piece.upper) if lower < end < upper}
+    cells = []
+    for left, right in pairwise(sorted({lower, upper, *ends})):
         middle = 0.5 * (left + right)
-        names = tuple(sorted(name for low, high, name in pieces if low <= middle <= high))
-        if ranges and ranges[-1][2] == names:
-            ranges[-1] = (ranges[-1][0], right, names)
-        else:
-            ranges.append((left, right, names))
+        there = sorted(piece.motion for piece in pieces if piece.lower <= middle <= piece.upper)
+        cells.append((left, right, tuple(there)))
+    runs = [(motions, list(run)) for motions, run in groupby(cells, key=lambda cell: cell[2])]
+    ranges = [(run[0][0], run[-1][1], motions) for motions, run in runs]
     return [each for each in ranges if each[1] - each[0] >= shortest]
 
 
@@ -67,19 +77,12 @@ def stable_ranges(branches: Iterable[Branch], *, shortest: float = 0.0) -> tuple
     --------
     >>> from gearpair import Oscillator, continue_orbit, periodic_orbit
     >>> branch = continue_orbit(periodic_orbit(Oscillator(), 0.34629, -0.25625, 2), "mesh_frequency", 0.7, 0.8)
-    >>> [(run.motion, round(run.lower, 4), round(run.upper, 4)) for run in stable_ranges([branch])]
+    >>> [(str(run.motion), round(run.lower, 4), round(run.upper, 4)) for run in stable_ranges([branch])]
     [('period 2', 0.7, 0.766)]
     """
-    joined: list[MotionRange] = []
-    for low, high, name in sorted(piece for branch in branches for piece in _stable_pieces(branch)):
-        motion = " ".join(name.split()[:2])
-        same = [i for i, run in enumerate(joined) if run.motion == motion and low <= run.upper]
-        if same:
-            run = joined[same[-1]]
-            joined[same[-1]] = MotionRange(run.lower, max(run.upper, high), motion)
-        else:
-            joined.append(MotionRange(low, high, motion))
-    return tuple(run for run in joined if run.width >= shortest)
+    pieces = (piece for branch in branches for piece in _stable_pieces(branch))
+    runs = joined_ranges(MotionRange(piece.lower, piece.upper, piece.motion.kind) for piece in pieces)
+    return tuple(run for run in runs if run.width >= shortest)
 
 
 def _nearest(located: np.ndarray, value: float) -> float:
@@ -88,16 +91,16 @@ def _nearest(located: np.ndarray, value: float) -> float:
     return near if abs(near - value) <= SNAP * max(1.0, abs(value)) else value
 
 
-def _stable_pieces(branch: Branch) -> list[tuple[float, float, str]]:
+def _stable_pieces(branch: Branch) -> list[MotionRange]:
     """Parameter ranges of the stable orbits of a branch, cut where the impact state changes or the branch turns."""
     states = branch.impact_states()
-    pieces: list[tuple[float, float, str]] = []
+    pieces: list[MotionRange] = []
     start = None
     for i in range(len(branch.values) + 1):
         inside = i < len(branch.values) and branch.stable[i]
         if start is not None and (not inside or states[i] != states[start] or _turns(branch, start, i)):
             ends = [_edge(branch, start - 1, start), _edge(branch, i - 1, i)]
-            pieces.append((min(ends), max(ends), f"period {branch.period} {states[start]}"))
+            pieces.append(MotionRange(min(ends), max(ends), periodic(branch.period, states[start])))
             start = None
         if inside and start is None:
             start = i
@@ -117,4 +120,8 @@ def _edge(branch: Branch, i: int, j: int) -> float:
     low, high = sorted(branch.values[[i, j]].tolist())
     margin = high - low
     near = [b.value for b in branch.bifurcations if low - margin <= b.value <= high + margin]
-    return min(near, key=lambda value: abs(value - 0.5 * (low + high))) if near else 0.5 * (low + high)
+    if near:
+        return min(near, key=lambda value: abs(value - 0.5 * (low + high)))
+    # A branch that merges with a shorter orbit ends on the flip, at a multiplier of one to rounding.
+    ends = [k for k in (i, j) if k in (0, len(branch.values) - 1)]
+    return float(branch.values[ends[0]]) if ends else 0.5 * (low + high)

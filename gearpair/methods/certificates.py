@@ -62,6 +62,12 @@ class Segment:
         A bound of the fourth derivative by t.
     crossing : float or None
         The t at which the engine found that the motion leaves the region.
+
+    Examples
+    --------
+    >>> first = segments(Oscillator(), 1.5, 0.0)[0]
+    >>> first.region, first.certificate, bool(first(0.0) == 1.5)
+    (1, 'hull', True)
     """
 
     start: float
@@ -227,7 +233,7 @@ def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Se
     return found
 
 
-def telling_segments(pieces: Iterable[Segment]) -> dict[str, Segment | None]:
+def certificate_examples(pieces: Iterable[Segment]) -> dict[str, Segment | None]:
     """The segments that show the three certificates best.
 
     Parameters
@@ -240,6 +246,12 @@ def telling_segments(pieces: Iterable[Segment]) -> dict[str, Segment | None]:
         ``"hull"``, a whole cell with a turn: the nearest to a boundary. ``"monotone"``, a whole cell: the crossing
         nearest to its middle. ``"near miss"``: the closest approach without a crossing that needs steps.
         ``"crossing by steps"``: the one that takes the most of them. None where there is no such segment.
+
+    Examples
+    --------
+    >>> found = certificate_examples(segments(Oscillator(mesh_frequency=1.219), 1.0, 0.0, 50))
+    >>> {name: piece.certificate for name, piece in found.items() if piece}
+    {'hull': 'hull', 'monotone': 'monotone', 'crossing by steps': 'steps'}
     """
     pieces = list(pieces)
     whole = [piece for piece in pieces if piece.span == 1.0]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
-from gearpair.methods.runge_kutta import apparent_period, runge_kutta_section
+from gearpair.methods.runge_kutta import runge_kutta_section, section_period
 from gearpair.methods.solvers import integrated_trajectory
 from gearpair.motion.datasets import attributes, oscillators_along
 from gearpair.motion.trajectories import Impacts, stroboscopic_map, trajectory
@@ -26,7 +26,7 @@ EXACT, COMPILED = "exact flow", "RK45, compiled"
 INTEGRATORS = ("RK45", "DOP853", "LSODA")
 ATOL_SHARE = 1e-3  # atol = rtol / 1000, as scipy's defaults are
 TIMED_PERIODS = 1000  # of one compiled run
-CUT = 0.38  # where `recut` divides each level
+CUT = 0.38  # where `split_levels` divides each level
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,11 @@ class Precision:
         The largest error of X or X' after one mesh period, over all starts.
     seconds : float
         Measured time per mesh period.
+
+    Examples
+    --------
+    >>> work_precision(Oscillator(), 1.0, 0.0, n_starts=2, tolerances=[1e-6])[-1].method
+    'exact flow'
     """
 
     method: str
@@ -50,7 +55,7 @@ class Precision:
     seconds: float
 
 
-def recut(osc: Oscillator) -> Oscillator:
+def split_levels(osc: Oscillator) -> Oscillator:
     """The same oscillator with each stiffness level written as two: the exact flow then works on other cells.
 
     What differs between the two is rounding.
@@ -65,7 +70,7 @@ def recut(osc: Oscillator) -> Oscillator:
 
     Examples
     --------
-    >>> len(recut(Oscillator()).stiffness.levels)
+    >>> len(split_levels(Oscillator()).stiffness.levels)
     4
     """
     wave = osc.stiffness
@@ -90,7 +95,7 @@ def impact_time_error(impacts: Impacts, reference: Impacts) -> float:
     Examples
     --------
     >>> osc = Oscillator()
-    >>> there, here = (trajectory(each, 0.5, 0.0, 3).impacts for each in (recut(osc), osc))
+    >>> there, here = (trajectory(each, 0.5, 0.0, 3).impacts for each in (split_levels(osc), osc))
     >>> len(here) > 0 and impact_time_error(there, here) < 1e-12
     True
     """
@@ -125,7 +130,7 @@ def work_precision(
     -------
     list of Precision
         scipy's RK45, DOP853 and LSODA, the compiled RK45, and the exact flow. The exact flow's own error is what
-        changes when its cells do (`recut`), its rounding. Compiled methods are timed over many periods.
+        changes when its cells do (`split_levels`), its rounding. Compiled methods are timed over many periods.
 
     Raises
     ------
@@ -161,7 +166,7 @@ def work_precision(
         last = [runge_kutta_section(osc, x0, v0, 1, **tolerance)[-1] for x0, v0 in starts[:-1].tolist()]
         seconds_each = _per_period(partial(runge_kutta_section, osc, *first, TIMED_PERIODS, **tolerance))
         found.append(Precision(COMPILED, float(rtol), float(np.abs(last - ends).max()), seconds_each))
-    again = np.column_stack(stroboscopic_map(recut(osc), starts[:-1, 0], starts[:-1, 1]))
+    again = np.column_stack(stroboscopic_map(split_levels(osc), starts[:-1, 0], starts[:-1, 1]))
     seconds_each = _per_period(partial(stroboscopic_map, osc, *first, n=TIMED_PERIODS))
     return [*found, Precision(EXACT, np.nan, float(np.abs(again - ends).max()), seconds_each)]
 
@@ -226,7 +231,7 @@ def plain_sweep(
         {
             "x": ((parameter, "sample"), points[:, :, 0], attributes("x")),
             "v": ((parameter, "sample"), points[:, :, 1], attributes("v")),
-            "period": (parameter, [apparent_period(section, closeness) for section in points], attributes("period")),
+            "period": (parameter, [section_period(section, closeness) for section in points], attributes("period")),
         },
         {parameter: (parameter, checked, attributes(parameter))},
         {"seeding": "carry", "oscillator": repr(osc)},

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -9,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_choice, check_count, check_number
 from gearpair._cores import on_all_cores
-from gearpair._flow.runge_kutta import COMPLETE, integrate_rows
+from gearpair._flow.runge_kutta import COMPLETE, integrate_fixed_rows, integrate_rows
 from gearpair._flow.settle import Lanes
 from gearpair.motion.datasets import attributes, oscillators_along
 from gearpair.motion.settling import SettleSettings, lanes_of
@@ -71,7 +73,7 @@ def runge_kutta_section(
     n_kept = n_periods + 1 if n_kept is None else check_count("n_kept", n_kept)
     if n_kept > n_periods + 1:
         raise ValueError(f"n_kept must be at most n_periods + 1 = {n_periods + 1}, got {n_kept}")
-    points, status, _calls = _integrated([osc], x, v, n_periods, n_kept, rtol, atol, carry=True)
+    points, status, _calls = _adaptive([osc], x, v, n_periods, n_kept, rtol, atol, chain=1)
     if status[0] != COMPLETE:
         raise RuntimeError("RK45 gave up: the motion escapes to infinity, or rtol and atol are too small to reach")
     return points[0]
@@ -128,9 +130,10 @@ def runge_kutta_sweep(
     n_transient = check_count("n_transient", n_transient, at_least=0)
     n_samples = check_count("n_samples", n_samples, at_least=2)
     check_number("closeness", closeness, above=0.0)
-    points, status, calls = _integrated(
-        oscillators, x, v, n_transient + n_samples - 1, n_samples, rtol, atol, carry=seeding == "carry"
-    )
+    points, status, calls = _adaptive(
+        oscillators, x, v, n_transient + n_samples - 1, n_samples, rtol, atol,
+        chain=len(oscillators) if seeding == "carry" else 1,
+    )  # fmt: skip
     points[status != COMPLETE] = np.nan
     import xarray as xr  # here, so that importing gearpair stays quick
 
@@ -138,7 +141,7 @@ def runge_kutta_sweep(
         {
             "x": ((parameter, "sample"), points[:, :, 0], attributes("x")),
             "v": ((parameter, "sample"), points[:, :, 1], attributes("v")),
-            "period": (parameter, [apparent_period(section, closeness) for section in points], attributes("period")),
+            "period": (parameter, [section_period(section, closeness) for section in points], attributes("period")),
             "calls": (parameter, calls, {"long_name": "calls of the right-hand side", "units": "1"}),
         },
         {parameter: (parameter, checked, attributes(parameter))},
@@ -146,7 +149,7 @@ def runge_kutta_sweep(
     )
 
 
-def apparent_period(points: ArrayLike, closeness: float = 0.01) -> int:
+def section_period(points: ArrayLike, closeness: float = 0.01) -> int:
     """The period that a reader sees in section points: the smallest that all of them repeat with.
 
     Parameters
@@ -163,7 +166,7 @@ def apparent_period(points: ArrayLike, closeness: float = 0.01) -> int:
 
     Examples
     --------
-    >>> apparent_period([[1.0, 0.0], [2.0, 0.0], [1.001, 0.0], [2.0, 0.0]])
+    >>> section_period([[1.0, 0.0], [2.0, 0.0], [1.001, 0.0], [2.0, 0.0]])
     2
     """
     section = np.asarray(points, dtype=float)
@@ -173,8 +176,93 @@ def apparent_period(points: ArrayLike, closeness: float = 0.01) -> int:
     return 0
 
 
-def _integrated(
-    oscillators: list[Oscillator],
+@dataclass(frozen=True, kw_only=True)
+class Integrator:
+    """A Runge-Kutta method and its steps, as somebody may have drawn a diagram with it.
+
+    Parameters
+    ----------
+    steps : int, optional
+        Steps a mesh period. Alone, those of the classical method of order four; beside `rtol`, the least number.
+    rtol : float, optional
+        The relative tolerance of RK45; the absolute one is a thousandth of it.
+
+    Raises
+    ------
+    ValueError
+        For neither, or a value out of range.
+
+    Examples
+    --------
+    >>> print(Integrator(steps=50), Integrator(rtol=1e-3), Integrator(rtol=1e-3, steps=50), sep="; ")
+    RK4, 50 steps; RK45, rtol 0.001; RK45, rtol 0.001, at least 50 steps
+    """
+
+    steps: int | None = None
+    rtol: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.steps is None and self.rtol is None:
+            raise ValueError("an integrator needs steps or rtol, got neither")
+        if self.steps is not None:
+            check_count("steps", self.steps)
+        if self.rtol is not None:
+            check_number("rtol", self.rtol, above=0.0)
+
+    def __str__(self) -> str:
+        if self.rtol is None:
+            return f"RK4, {self.steps} steps"
+        return f"RK45, rtol {self.rtol:g}" + (f", at least {self.steps} steps" if self.steps else "")
+
+    def sections(
+        self, oscillators: Sequence[Oscillator], x: float, v: float, n_discarded: int, n_kept: int, *, chain: int = 1
+    ) -> NDArray[np.float64]:
+        """Section points of many oscillators, in parallel over the cores.
+
+        Parameters
+        ----------
+        oscillators : sequence of Oscillator
+            All with equally many stiffness levels.
+        x, v : float
+            The start of all that do not carry on.
+        n_discarded, n_kept : int
+            Mesh periods left out first, and section points kept after them.
+        chain : int
+            Oscillators in a chain, a divisor of their number: each but the first of its chain starts where the one
+            before it ended.
+
+        Returns
+        -------
+        ndarray of float, shape (n, n_kept, 2)
+            X and X'; nan where the integrator gave up.
+
+        Examples
+        --------
+        >>> Integrator(steps=400).sections([Oscillator()], 1.0, 0.0, 500, 2)[0].round(3).tolist()
+        [[0.349, -0.256], [0.926, -0.281]]
+        """
+        n, n_periods = len(oscillators), n_discarded + n_kept - 1
+        if self.rtol is not None:
+            points, status, _ = _adaptive(
+                oscillators, x, v, n_periods, n_kept, self.rtol, 1e-3 * self.rtol, chain=chain, steps=self.steps or 0
+            )
+        else:
+            lanes = _lanes(oscillators, x, v)
+            points, status = np.empty((n, n_kept, 2)), np.empty(n, np.int64)
+            arguments = (lanes, chain, n_periods, self.steps, points, status)
+            on_all_cores(integrate_fixed_rows, arguments, n, chain)
+        points[status != COMPLETE] = np.nan
+        return points
+
+
+def _lanes(oscillators: Sequence[Oscillator], x: float, v: float) -> Lanes:
+    return lanes_of(
+        oscillators, np.broadcast_to(check_start(x, v), (len(oscillators), 2)), SettleSettings(n_transient=0)
+    )
+
+
+def _adaptive(
+    oscillators: Sequence[Oscillator],
     x: float,
     v: float,
     n_periods: int,
@@ -182,25 +270,17 @@ def _integrated(
     rtol: float,
     atol: float,
     *,
-    carry: bool,
+    chain: int,
+    steps: int = 0,
 ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
     """Section points (n, n_kept, 2), status (n,) and calls of the right-hand side (n,)."""
     check_number("rtol", rtol, above=0.0)
     check_number("atol", atol, above=0.0)
-    start = check_start(x, v)
     n = len(oscillators)
-    lanes: Lanes = lanes_of(oscillators, np.broadcast_to(start, (n, 2)), SettleSettings(n_transient=0))
     points, status, calls = np.empty((n, n_kept, 2)), np.empty(n, np.int64), np.empty(n, np.int64)
+    limit = MAX_STEPS_PER_PERIOD * n_periods
     arguments = (
-        lanes,
-        carry,
-        n_periods,
-        float(rtol),
-        float(atol),
-        MAX_STEPS_PER_PERIOD * n_periods,
-        points,
-        status,
-        calls,
-    )
-    on_all_cores(integrate_rows, arguments, n, n if carry else 1)
+        _lanes(oscillators, x, v), chain, n_periods, float(rtol), float(atol), steps, limit, points, status, calls,
+    )  # fmt: skip
+    on_all_cores(integrate_rows, arguments, n, chain)
     return points, status, calls

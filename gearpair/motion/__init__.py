@@ -2,10 +2,18 @@
 
 from gearpair.motion.datasets import symbol
 from gearpair.motion.impacts import ImpactState, impact_state
-from gearpair.motion.initial_conditions import attractor_names, attractor_states, basins, motion_shares
+from gearpair.motion.initial_conditions import attractor_motions, attractor_states, basins, motion_shares
 from gearpair.motion.measures import ImpactMeasures, impact_measures
-from gearpair.motion.names import motion_name, motion_names
-from gearpair.motion.ranges import MotionRange, follow, found_ranges, motion_ranges, range_of, representatives
+from gearpair.motion.names import CHAOS, Motion, motions_of, periodic
+from gearpair.motion.ranges import (
+    MotionRange,
+    follow,
+    found_ranges,
+    joined_ranges,
+    motion_ranges,
+    range_of,
+    representatives,
+)
 from gearpair.motion.settling import Status, transient_periods
 from gearpair.motion.spectra import Spectrum, spectrum
 from gearpair.motion.stability import lyapunov_exponents, multipliers_of
@@ -15,28 +23,31 @@ from gearpair.motion.trajectories import Impacts, Trajectory, stroboscopic_map, 
 from gearpair.motion.zero_one import zero_one_test
 
 __all__ = [
+    "CHAOS",
     "ImpactMeasures",
     "ImpactState",
     "Impacts",
+    "Motion",
     "MotionRange",
     "Spectrum",
     "Status",
     "SteadyState",
     "Trajectory",
-    "attractor_names",
+    "attractor_motions",
     "attractor_states",
     "basins",
     "follow",
     "found_ranges",
     "impact_measures",
     "impact_state",
+    "joined_ranges",
     "lyapunov_exponents",
-    "motion_name",
-    "motion_names",
     "motion_ranges",
     "motion_shares",
+    "motions_of",
     "multipliers_of",
     "parameter_map",
+    "periodic",
     "range_of",
     "representatives",
     "spectrum",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from gearpair.motion.settling import STATUSES, Status
 from gearpair.oscillator import Oscillator
 
 if TYPE_CHECKING:
-    pass
+    import xarray as xr
 
 LONG_NAMES = {
     "mean_force": "mean force F_m'",
@@ -52,6 +53,16 @@ def oscillators_along(
 def attributes(name: str) -> dict[str, str]:
     """Units and long name of a variable, by its name."""
     return {"long_name": LONG_NAMES[name], "units": "rad" if name == "error_phase" else "1"}
+
+
+def dataset(
+    osc: Oscillator, variables: Mapping[str, Any], axes: Mapping[str, NDArray[np.float64]], **settings: Any
+) -> xr.Dataset:
+    """Variables over axes that are parameters, with what they belong to; `settings` become attributes."""
+    import xarray as xr  # here, so that importing gearpair stays quick
+
+    coordinates = {name: (name, values, attributes(name)) for name, values in axes.items()}
+    return xr.Dataset(variables, coordinates, {**settings, "oscillator": repr(osc)})
 
 
 def settled_variables(out: Settled, dims: tuple[str, ...], shape: tuple[int, ...]) -> dict[str, Any]:

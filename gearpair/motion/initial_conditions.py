@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._flow.settle import APERIODIC, PERIODIC, UNSETTLED, Settled
-from gearpair.motion.datasets import attributes, oscillators_along, settled_variables
-from gearpair.motion.names import IMPACT_NAMES, motion_name, motion_names, motion_order
-from gearpair.motion.settling import SettleSettings, Status, settle_lanes
+from gearpair.motion.datasets import attributes, dataset, oscillators_along, settled_variables
+from gearpair.motion.impacts import ImpactState
+from gearpair.motion.names import Motion, motions_from, motions_of
+from gearpair.motion.same_orbit import lies_on
+from gearpair.motion.settling import SettleSettings, settle_lanes
 from gearpair.motion.steady import SteadyState, steady_state
 from gearpair.motion.trajectories import check_starts
 from gearpair.oscillator import Oscillator
 
 if TYPE_CHECKING:
     import xarray as xr
-
-SAME_ORBIT = 1e-6  # orbits whose first section points lie this close are one
 
 
 def basins(
@@ -116,7 +116,8 @@ def _attractors(out: Settled) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
             continue
         orbit = status == PERIODIC
         key = (float(status), float(out.period[i]), *(out.points[i, 0].tolist() if orbit else (0.0, 0.0)))
-        near = [k for k, other in enumerate(keys) if np.allclose(key, other, rtol=0.0, atol=SAME_ORBIT)]
+        alike = [k for k, other in enumerate(keys) if key[:2] == other[:2]]
+        near = [k for k in alike if not orbit or lies_on(key[2:], out.points[lanes[k], : out.period[i]])]
         if not near:
             keys.append(key)
             lanes.append(i)
@@ -128,8 +129,8 @@ def _attractors(out: Settled) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     return labels, np.array(lanes, dtype=int)[order]
 
 
-def attractor_names(result: xr.Dataset, least_share: float = 0.0) -> list[str]:
-    """What each attractor of `gearpair.basins` is: its motion and, unless chaotic, its impact state.
+def attractor_motions(result: xr.Dataset, least_share: float = 0.0) -> list[Motion]:
+    """What each attractor of `gearpair.basins` is: its motion and, where periodic, its impact state.
 
     Parameters
     ----------
@@ -138,18 +139,22 @@ def attractor_names(result: xr.Dataset, least_share: float = 0.0) -> list[str]:
     least_share : float
         Attractors that fewer of the starts reach are left out.
 
+    Returns
+    -------
+    list of Motion
+
     Examples
     --------
-    >>> attractor_names(basins(Oscillator(), [0.0, 1.0], [0.0]))
-    ['period 2, single-sided']
+    >>> print(*attractor_motions(basins(Oscillator(), [0.0, 1.0], [0.0])))
+    period 2, single-sided
     """
-    columns = (result[f"attractor_{name}"].values for name in ("status", "period", "impact_state", "share"))
-    names = []
-    for status, period, state, share in zip(*columns, strict=True):
-        if share >= least_share:
-            motion = motion_name(str(status), int(period))
-            names.append(f"{motion}, {IMPACT_NAMES[str(state)]}" if status == Status.PERIODIC else motion)
-    return names
+    kinds = motions_from(result.attractor_status.values, result.attractor_period.values)
+    columns = zip(kinds, result.attractor_impact_state.values, result.attractor_share.values, strict=True)
+    return [
+        Motion(kind.status, kind.period, ImpactState(str(state)) if kind.period else None)
+        for kind, state, share in columns
+        if share >= least_share
+    ]
 
 
 def attractor_states(osc: Oscillator, result: xr.Dataset, least_share: float = 0.0) -> list[SteadyState]:
@@ -184,10 +189,7 @@ def motion_shares(
     values: ArrayLike,
     x: ArrayLike,
     v: ArrayLike,
-    *,
-    n_transient: int | None = None,
-    max_period: int = 64,
-    n_exponent: int = 500,
+    **settings: Any,
 ) -> xr.Dataset:
     """Along one parameter, the share of a grid of starts that reaches each kind of motion.
 
@@ -199,13 +201,14 @@ def motion_shares(
     values : array_like of float, shape (n,)
     x, v : array_like of float
         The grid of starts, as for `gearpair.basins`.
-    n_transient, max_period, n_exponent
-        As in `gearpair.steady_state`.
+    **settings
+        As for `gearpair.basins`.
 
     Returns
     -------
     xarray.Dataset
-        ``share`` over ``(parameter, motion)``, the motions named as by `motion_name`: periodic ones first, by period.
+        ``share`` over ``(parameter, motion)``; each motion by its name, with its ``status`` and ``period``: periodic
+        ones first, by period.
 
     Examples
     --------
@@ -214,16 +217,13 @@ def motion_shares(
     [[1.0], [1.0]]
     """
     oscillators, checked = oscillators_along(osc, parameter, values)
-    names = [
-        motion_names(basins(each, x, v, n_transient=n_transient, max_period=max_period, n_exponent=n_exponent))
-        for each in oscillators
-    ]
-    motions = sorted({str(name) for plane in names for name in np.unique(plane)}, key=motion_order)
-    share = [[float(np.mean(plane == motion)) for motion in motions] for plane in names]
-    import xarray as xr  # here, so that importing gearpair stays quick
-
-    return xr.Dataset(
-        {"share": ((parameter, "motion"), share, {"long_name": "share of the starts", "units": "1"})},
-        {parameter: (parameter, checked, attributes(parameter)), "motion": motions},
-        {"oscillator": repr(osc)},
-    )
+    planes = [motions_of(basins(each, x, v, **settings)) for each in oscillators]
+    motions = sorted({motion for plane in planes for motion in plane.ravel()})
+    share = [[float(np.mean(plane == motion)) for motion in motions] for plane in planes]
+    columns = {
+        "share": ((parameter, "motion"), share, {"long_name": "share of the starts", "units": "1"}),
+        "status": ("motion", [str(motion.status) for motion in motions], attributes("status")),
+        "period": ("motion", [motion.period or 0 for motion in motions], attributes("period")),
+    }
+    result = dataset(osc, columns, {parameter: checked})
+    return result.assign_coords(motion=[str(motion) for motion in motions])

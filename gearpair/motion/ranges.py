@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from gearpair._checks import check_number
 from gearpair.motion.datasets import oscillators_along
-from gearpair.motion.names import CHAOS, motion_name, motion_names, motion_order
+from gearpair.motion.names import CHAOS, Motion, motions_of, periodic
 from gearpair.motion.steady import SteadyState, steady_state
 from gearpair.motion.sweeps import sweep
 from gearpair.oscillator import Oscillator
@@ -32,13 +32,12 @@ class MotionRange:
     ----------
     lower, upper : float
         The first and the last value at which the motion was met.
-    motion : str
-        ``"period 1"``, ``"period 2"``, ..., ``"chaos"``, or the status of what is neither.
+    motion : Motion
     """
 
     lower: float
     upper: float
-    motion: str
+    motion: Motion
 
     @property
     def width(self) -> float:
@@ -60,14 +59,45 @@ def motion_ranges(result: xr.Dataset) -> tuple[MotionRange, ...]:
 
     Examples
     --------
-    >>> motion_ranges(sweep(Oscillator(), "mesh_frequency", [0.78, 0.74, 0.7]))
-    (MotionRange(lower=0.7, upper=0.74, motion='period 2'), MotionRange(lower=0.78, upper=0.78, motion='period 4'))
+    >>> for run in motion_ranges(sweep(Oscillator(), "mesh_frequency", [0.78, 0.74, 0.7])):
+    ...     print(run.motion, run.lower, run.upper)
+    period 2 0.7 0.74
+    period 4 0.78 0.78
     """
     values = result[swept_parameter(result)].values
     order = np.argsort(values)
-    named = zip(values[order].tolist(), motion_names(result)[order].tolist(), strict=True)
-    runs = [(motion, [value for value, _ in run]) for motion, run in groupby(named, key=lambda pair: pair[1])]
+    pairs = zip(values[order].tolist(), motions_of(result)[order].tolist(), strict=True)
+    runs = [(motion, [value for value, _ in run]) for motion, run in groupby(pairs, key=lambda pair: pair[1])]
     return tuple(MotionRange(run[0], run[-1], motion) for motion, run in runs)
+
+
+def joined_ranges(ranges: Iterable[MotionRange]) -> tuple[MotionRange, ...]:
+    """Ranges of one motion that overlap or touch made one, by rising lower end.
+
+    Parameters
+    ----------
+    ranges : iterable of MotionRange
+        In any order.
+
+    Returns
+    -------
+    tuple of MotionRange
+        Ranges of different motions may overlap.
+
+    Examples
+    --------
+    >>> three = [MotionRange(2.0, 3.0, CHAOS), MotionRange(0.0, 4.0, CHAOS), MotionRange(5.0, 6.0, CHAOS)]
+    >>> [(run.lower, run.upper) for run in joined_ranges(three)]
+    [(0.0, 4.0), (5.0, 6.0)]
+    """
+    found: dict[Motion, list[MotionRange]] = {}
+    for each in sorted(ranges, key=lambda each: each.lower):
+        runs = found.setdefault(each.motion, [])
+        if runs and each.lower <= runs[-1].upper:
+            runs[-1] = MotionRange(runs[-1].lower, max(runs[-1].upper, each.upper), each.motion)
+        else:
+            runs.append(each)
+    return tuple(sorted((run for runs in found.values() for run in runs), key=lambda run: (run.lower, run.motion)))
 
 
 def found_ranges(*sweeps: xr.Dataset, narrowest: float = 0.0) -> tuple[MotionRange, ...]:
@@ -97,18 +127,8 @@ def found_ranges(*sweeps: xr.Dataset, narrowest: float = 0.0) -> tuple[MotionRan
     check_number("narrowest", narrowest, at_least=0.0)
     if len({swept_parameter(result) for result in sweeps}) > 1:
         raise ValueError(f"the sweeps must be over one parameter, got {', '.join(map(swept_parameter, sweeps))}")
-    found: list[MotionRange] = []
-    for run in sorted((run for result in sweeps for run in motion_ranges(result)), key=lambda run: run.lower):
-        if not run.motion.startswith("period "):
-            continue
-        same = [i for i, other in enumerate(found) if other.motion == run.motion and run.lower <= other.upper]
-        if same:
-            last = found[same[-1]]
-            found[same[-1]] = MotionRange(last.lower, max(last.upper, run.upper), run.motion)
-        else:
-            found.append(run)
-    wide = (run for run in found if run.width >= narrowest)
-    return tuple(sorted(wide, key=lambda run: (run.lower, motion_order(run.motion))))
+    runs = (run for result in sweeps for run in motion_ranges(result) if run.motion.period)
+    return tuple(run for run in joined_ranges(runs) if run.width >= narrowest)
 
 
 def swept_parameter(result: xr.Dataset) -> str:
@@ -122,9 +142,9 @@ def swept_parameter(result: xr.Dataset) -> str:
 def representatives(
     osc: Oscillator,
     *sweeps: xr.Dataset,
-    motions: Sequence[str] = ("period 1", "period 2", "period 3", "period 4", CHAOS),
-    near: Mapping[str, float] | None = None,
-) -> dict[str, SteadyState]:
+    motions: Sequence[Motion] = (periodic(1), periodic(2), periodic(3), periodic(4), CHAOS),
+    near: Mapping[Motion, float] | None = None,
+) -> dict[Motion, SteadyState]:
     """One settled motion of each kind, from the sweeps that met it.
 
     The sweeps are asked in turn, and the first that met the motion gives it: at the middle of its widest run, or
@@ -136,14 +156,21 @@ def representatives(
         What was swept.
     *sweeps : xarray.Dataset
         Of `gearpair.sweep`, the preferred first.
-    motions : sequence of str
-        Names as `motion_name` gives them.
-    near : mapping of str to float, optional
+    motions : sequence of Motion
+        Kinds, whatever the impact state.
+    near : mapping of Motion to float, optional
         Where to look for some of the motions.
 
     Returns
     -------
-    dict of str to SteadyState
+    dict of Motion to SteadyState
+
+    Examples
+    --------
+    >>> osc = Oscillator()
+    >>> shown = representatives(osc, sweep(osc, "mesh_frequency", [0.7, 0.72, 0.78]))
+    >>> {str(motion): state.oscillator.mesh_frequency for motion, state in shown.items()}
+    {'period 2': 0.7, 'period 4': 0.78}
     """
     found = {}
     for motion in motions:
@@ -154,7 +181,7 @@ def representatives(
                 continue
             widest = max(met, key=lambda run: run.width)
             target = (near or {}).get(motion, 0.5 * (widest.lower + widest.upper))
-            where = np.flatnonzero(motion_names(result) == motion)
+            where = np.flatnonzero(motions_of(result) == motion)
             nearest = where[np.argsort(np.abs(result[parameter].values[where] - target), kind="stable")]
             state = next(filter(None, (_settled_again(osc, result, i, motion) for i in nearest[:TRIES])), None)
             if state is not None:
@@ -163,12 +190,12 @@ def representatives(
     return found
 
 
-def _settled_again(osc: Oscillator, result: xr.Dataset, i: int, motion: str) -> SteadyState | None:
+def _settled_again(osc: Oscillator, result: xr.Dataset, i: int, motion: Motion) -> SteadyState | None:
     """The motion at value `i` of a sweep, or None where it was about to become another (a chaotic transient)."""
     parameter = swept_parameter(result)
     x, v = (float(result[name].values[i, 0]) for name in ("x", "v"))
     state = steady_state(osc.replace(**{parameter: float(result[parameter].values[i])}), x, v)
-    return state if motion_name(state.status, state.period) == motion else None
+    return state if state.motion.kind == motion else None
 
 
 def follow(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> tuple[xr.Dataset, ...]:
@@ -193,8 +220,8 @@ def follow(state: SteadyState, parameter: str, values: ArrayLike, **settings: An
     Examples
     --------
     >>> falling, rising = follow(steady_state(Oscillator()), "mesh_frequency", [0.65, 0.7, 0.75, 0.78])
-    >>> found_ranges(falling, rising)[-1]
-    MotionRange(lower=0.78, upper=0.78, motion='period 4')
+    >>> print(found_ranges(falling, rising)[-1].motion)
+    period 4
     """
     _, checked = oscillators_along(state.oscillator, parameter, values)
     here, ordered = state.oscillator.parameter(parameter), np.sort(checked)
@@ -223,14 +250,14 @@ def range_of(state: SteadyState, parameter: str, values: ArrayLike, **settings: 
     >>> range_of(steady_state(Oscillator()), "mesh_frequency", [0.65, 0.7, 0.75, 0.78]).upper
     0.75
     """
-    name, here = motion_name(state.status, state.period), state.oscillator.parameter(parameter)
+    motion, here = state.motion.kind, state.oscillator.parameter(parameter)
     ends = [here, here]
     for result in follow(state, parameter, values, **settings):
         visited = result[parameter].values
         sizes = np.stack([result.x_min.values, result.x_max.values])
         steps = np.abs(np.diff(sizes, axis=1, prepend=[[state.x_min], [state.x_max]])).max(axis=0)
-        changed = np.flatnonzero((motion_names(result) != name) | ~(steps <= LARGEST_STEP * np.ptp(sizes, axis=0)))
+        changed = np.flatnonzero((motions_of(result) != motion) | ~(steps <= LARGEST_STEP * np.ptp(sizes, axis=0)))
         kept = visited[: changed[0]] if len(changed) else visited
         if len(kept):
             ends = [min(ends[0], float(kept.min())), max(ends[1], float(kept.max()))]
-    return MotionRange(ends[0], ends[1], name)
+    return MotionRange(ends[0], ends[1], motion)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from gearpair._flow.settle import Settled
 from gearpair.motion.impacts import ImpactState, impact_state
+from gearpair.motion.names import Motion
 from gearpair.motion.settling import STATUSES, SettleSettings, Status, settle_lanes
 from gearpair.motion.stability import multipliers_of
 from gearpair.motion.trajectories import check_start
@@ -52,6 +53,11 @@ class SteadyState:
     impact_state: ImpactState | None
     lyapunov_exponents: NDArray[np.float64]
     exponent_error: float
+
+    @property
+    def motion(self) -> Motion:
+        """Its status, period and impact state as one."""
+        return Motion(self.status, self.period, self.impact_state)
 
 
 def steady_state(
@@ -100,8 +106,8 @@ def steady_state(
     Examples
     --------
     >>> state = steady_state(Oscillator())
-    >>> str(state.status), state.period, str(state.impact_state)
-    ('periodic', 2, 'single_drive')
+    >>> print(state.motion)
+    period 2, single-sided
     """
     start = check_start(x, v)
     settings = SettleSettings(

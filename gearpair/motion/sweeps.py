@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearpair._checks import check_choice
-from gearpair.motion.datasets import attributes, oscillators_along, settled_variables
+from gearpair.motion.datasets import attributes, dataset, oscillators_along, settled_variables
 from gearpair.motion.settling import SettleSettings, settle_lanes
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
@@ -83,13 +83,7 @@ def sweep(
     variables = settled_variables(out, (parameter,), (len(checked),))
     for i, name in enumerate(("x", "v")):
         variables[name] = ((parameter, "sample"), out.points[:, :, i], attributes(name))
-    import xarray as xr  # here, so that importing gearpair stays quick
-
-    return xr.Dataset(
-        variables,
-        {parameter: (parameter, checked, attributes(parameter))},
-        {"seeding": seeding, "oscillator": repr(osc)},
-    )
+    return dataset(osc, variables, {parameter: checked}, seeding=seeding)
 
 
 def parameter_map(
@@ -142,10 +136,4 @@ def parameter_map(
     settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
     starts = np.broadcast_to(check_start(x, v), (len(oscillators), 2))
     out = settle_lanes(oscillators, starts, settings, progress=progress)
-    import xarray as xr  # here, so that importing gearpair stays quick
-
-    return xr.Dataset(
-        settled_variables(out, tuple(checked), shape),
-        {name: (name, values, attributes(name)) for name, values in checked.items()},
-        {"oscillator": repr(osc)},
-    )
+    return dataset(osc, settled_variables(out, tuple(checked), shape), checked)

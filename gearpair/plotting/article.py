@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from gearpair.article import published
 from gearpair.article.existence import Reached
 from gearpair.article.readings import Hypothesis
-from gearpair.article.scoring import published_labels
+from gearpair.article.scoring import published_motions
 from gearpair.article.trials import Ranked
 from gearpair.plotting.style import BOUNDARY, INK, LABELS, motion_colour, new_axes
 
@@ -21,7 +21,7 @@ def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax
     Parameters
     ----------
     ranked : sequence of Ranked
-        Of `gearpair.hypotheses.ranking`.
+        Of `gearpair.article.ranking`.
     marked : mapping of str to Hypothesis
         The ones to name.
     ax : Axes, optional
@@ -55,7 +55,7 @@ def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = ""
     Parameters
     ----------
     reached : Reached
-        Of `gearpair.hypotheses.reached`.
+        Of `gearpair.article.reached`.
     ax : Axes, optional
     title : str
 
@@ -64,20 +64,20 @@ def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = ""
     Axes
         A row for each published motion: an outlined box where it is published, a dot where it was reached.
     """
-    words = list(dict.fromkeys(published_labels(reached.parameter)))
-    ax = new_axes(ax, 0.7 + 0.3 * len(words))
+    motions = list(dict.fromkeys(published_motions(reached.parameter)))
+    ax = new_axes(ax, 0.7 + 0.3 * len(motions))
     values = reached.values
-    for row, word in enumerate(words):
-        colour = motion_colour(f"period {word}" if word.isdigit() else word)
+    for row, motion in enumerate(motions):
+        colour = motion_colour(motion)
         for stated in published.ranges(reached.parameter):
-            if str(stated.period or stated.motion) == word:
+            if stated.motion == motion:
                 width = stated.upper - stated.lower
                 ax.barh(row, width, left=stated.lower, height=0.8, color=colour, alpha=0.25, linewidth=0)
-        here = values[reached.has(word)]
+        here = values[reached.has(motion)]
         ax.plot(here, np.full(len(here), row), "o", markersize=3.5, color=colour)
-    ax.set_yticks(range(len(words)), [f"period {word}" if word.isdigit() else word for word in words])
+    ax.set_yticks(range(len(motions)), list(map(str, motions)))
     ranges = published.ranges(reached.parameter)
-    ax.set(xlabel=LABELS[reached.parameter], xlim=(ranges[0].lower, ranges[-1].upper), ylim=(len(words) - 0.5, -0.5))
+    ax.set(xlabel=LABELS[reached.parameter], xlim=(ranges[0].lower, ranges[-1].upper), ylim=(len(motions) - 0.5, -0.5))
     ax.set_title(title)
     return ax
 

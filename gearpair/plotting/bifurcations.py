@@ -13,6 +13,7 @@ from matplotlib.patheffects import withStroke
 
 from gearpair.bifurcations.branches import Branch
 from gearpair.bifurcations.curves import BifurcationCurve
+from gearpair.motion.names import periodic
 from gearpair.plotting.style import INK, LABELS, motion_colour, new_axes
 
 MARKERS = {"fold": "^", "flip": "o", "grazing": "D"}
@@ -45,7 +46,7 @@ def branches(
     for branch in found:
         if periods is not None and branch.period not in periods:
             continue
-        colour = motion_colour(f"period {branch.period}")
+        colour = motion_colour(periodic(branch.period))
         for stable in (False, True):
             for k in range(branch.period):
                 shown = np.where(_runs(branch.stable, stable), branch.points[:, k, 0], np.nan)
@@ -108,7 +109,7 @@ def bifurcation_curves(
     ax = new_axes(ax)
     drawn = list(curves)
     for curve in drawn:
-        shade = colour or motion_colour(f"period {curve.period}")
+        shade = colour or motion_colour(periodic(curve.period))
         halo = [withStroke(linewidth=2.4, foreground="white")]
         ax.plot(*curve.values.T, color=shade, linestyle=DASHES[curve.kind], linewidth=1.1, path_effects=halo)
         ax.set(xlabel=LABELS[curve.parameters[0]], ylabel=LABELS[curve.parameters[1]])
@@ -116,7 +117,7 @@ def bifurcation_curves(
     handles = [Line2D([], [], color=colour or INK, linestyle=DASHES[kind], label=kind) for kind in kinds]
     if colour is None:
         periods = sorted({curve.period for curve in drawn})
-        handles += [Line2D([], [], color=motion_colour(f"period {p}"), label=f"period {p}") for p in periods]
+        handles += [Line2D([], [], color=motion_colour(m), label=str(m)) for m in map(periodic, periods)]
     if handles:
         _add_key(ax, handles)
     return ax

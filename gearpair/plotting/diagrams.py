@@ -9,8 +9,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
-from gearpair.article.published import Boundary, Range
-from gearpair.motion.names import motion_names, motion_order
+from gearpair.article.published import COMPLEX, Boundary, Range
+from gearpair.motion.names import CHAOS, Motion, motions_of
 from gearpair.motion.ranges import MotionRange, motion_ranges, swept_parameter
 from gearpair.plotting.style import (
     BACKLASH,
@@ -50,20 +50,23 @@ def bifurcation_diagram(
     """
     ax = new_axes(ax)
     parameter = swept_parameter(sweep)
-    names = np.array([legend_name(name) for name in motion_names(sweep)])
+    motions = motions_of(sweep)
+    names = np.array([legend_name(motion) for motion in motions])
     values = sweep[parameter].values
     for name in sorted(set(names.tolist()), key=lambda name: -int(np.sum(names == name))):
         points = _section_points(sweep, names == name)
         where = np.repeat(values[names == name], points.shape[1])
-        many = name in ("chaos", "unsettled")
+        chosen = motions[names == name]
+        many = not chosen[0].period
         ax.plot(
             where, points.ravel(), linestyle="", marker=".", markeredgewidth=0, rasterized=True, label=name,
-            markersize=0.6 * size if many else 1.6 * size, alpha=0.5 if many else 1.0, color=motion_colour(name),
+            markersize=0.6 * size if many else 1.6 * size, alpha=0.5 if many else 1.0,
+            color=motion_colour(chosen[0]),
         )  # fmt: skip
     ax.set(xlabel=LABELS[parameter], ylabel=LABELS["section"], xlim=(values.min(), values.max()))
     ax.annotate(title, (0.0, 1.0), xytext=(6, -4), xycoords="axes fraction", textcoords="offset points", va="top")
     if legend:
-        add_motion_legend(ax, motion_names(sweep).tolist())
+        add_motion_legend(ax, motions)
     return ax
 
 
@@ -115,17 +118,17 @@ def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) 
     """
     ax = new_axes(ax)
     parameter = swept_parameter(sweep)
-    values, names = sweep[parameter].values, motion_names(sweep)
+    values, motions = sweep[parameter].values, motions_of(sweep)
     shade_backlash(ax, horizontal=True)
-    for name in sorted(set(names.tolist()), key=motion_order):
+    for motion in sorted(set(motions)):
         for extreme in ("x_min", "x_max"):
             ax.plot(
-                values[names == name], sweep[extreme].values[names == name], linestyle="", marker=".", markersize=2,
-                color=motion_colour(name), label=name if extreme == "x_min" else None,
+                values[motions == motion], sweep[extreme].values[motions == motion], linestyle="", marker=".",
+                markersize=2, color=motion_colour(motion), label=str(motion) if extreme == "x_min" else None,
             )  # fmt: skip
     ax.set(xlabel=LABELS[parameter], ylabel=r"$X_{\min}$ and $X_{\max}$", xlim=(values.min(), values.max()))
     if legend:
-        add_motion_legend(ax, names.tolist())
+        add_motion_legend(ax, motions)
     return ax
 
 
@@ -159,7 +162,7 @@ def exponents(sweep: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, l
     ax.axhline(0.0, color=BOUNDARY, linewidth=0.7)
     ax.fill_between(values, largest - 2.0 * error, largest + 2.0 * error, color=colour, alpha=0.25, linewidth=0)
     ax.plot(values, largest, color=colour, linewidth=0.9, label=label)
-    ax.fill_between(values, 0.0, largest, where=largest > 0.0, color=motion_colour("chaos"), alpha=0.25, linewidth=0)
+    ax.fill_between(values, 0.0, largest, where=largest > 0.0, color=motion_colour(CHAOS), alpha=0.25, linewidth=0)
     ax.set(xlabel=LABELS[parameter], ylabel=LABELS["exponent"], xlim=(values.min(), values.max()))
     return ax
 
@@ -189,22 +192,22 @@ def range_strips(
         With one bar for each range; wide ones hold their names.
     """
     ax = new_axes(ax, 0.7 + 0.42 * len(strips))
-    bars: list[tuple[int, float, float, str]] = []
+    bars: list[tuple[int, float, float, Motion]] = []
     for row, source in enumerate(strips.values()):
         ranges, half = (source, 0.0) if not isinstance(source, xr.Dataset) else _runs_and_half_step(source)
         parameter = swept_parameter(source) if isinstance(source, xr.Dataset) else parameter
         for each in ranges:
             parameter = getattr(each, "parameter", parameter)
-            bars.append((row, each.lower - half, each.upper + half, _strip_name(each)))
+            bars.append((row, each.lower - half, each.upper + half, each.motion))
     left, right = min(bar[1] for bar in bars), max(bar[2] for bar in bars)
-    for row, low, high, name in bars:
-        hatch = "////" if name == "complex" else None
+    for row, low, high, motion in bars:
+        hatch = "////" if motion == COMPLEX else None
         ax.barh(
-            row, high - low, left=low, height=0.8, color=motion_colour(name), hatch=hatch, linewidth=0,
+            row, high - low, left=low, height=0.8, color=motion_colour(motion), hatch=hatch, linewidth=0,
             edgecolor="white", alpha=0.75 if hatch else 1.0,
         )  # fmt: skip
         room = (high - low) / (right - left) / LETTER - 1.0
-        text = next((text for text in (name, name.removeprefix("period ")) if len(text) <= room), "")
+        text = next((text for text in (str(motion), str(motion.period or motion)) if len(text) <= room), "")
         ax.text(0.5 * (low + high), row, text, ha="center", va="center", fontsize=8, color="white", weight="bold")
     ax.set_yticks(range(len(strips)), list(strips))
     ax.tick_params(axis="y", length=0)
@@ -218,12 +221,6 @@ def range_strips(
 def _runs_and_half_step(sweep: xr.Dataset) -> tuple[Iterable[MotionRange], float]:
     steps = np.abs(np.diff(sweep[swept_parameter(sweep)].values))
     return motion_ranges(sweep), 0.5 * float(steps.min()) if len(steps) else 0.0
-
-
-def _strip_name(each: MotionRange | Range) -> str:
-    if isinstance(each, Range):
-        return f"period {each.period}" if each.period else each.motion
-    return each.motion
 
 
 def range_lanes(
@@ -245,18 +242,17 @@ def range_lanes(
         With one bar for each range.
     """
     rows = [(k, each) for k, source in enumerate(sources.values()) for each in source]
-    motions = sorted({_strip_name(each) for _, each in rows}, key=motion_order)
+    motions = sorted({each.motion for _, each in rows})
     ax = new_axes(ax, 1.0 + 0.3 * len(motions))
     height = 0.84 / len(sources)
     for k, each in rows:
         parameter = getattr(each, "parameter", parameter)
-        motion = _strip_name(each)
         pale = {"alpha": 0.35, "edgecolor": "black", "linewidth": 0.8} if k == 0 else {"linewidth": 0}
         ax.barh(
-            motions.index(motion) + height * (k + 0.5) - 0.42, each.upper - each.lower, left=each.lower,
-            height=0.9 * height, color=motion_colour(motion), **pale,
+            motions.index(each.motion) + height * (k + 0.5) - 0.42, each.upper - each.lower, left=each.lower,
+            height=0.9 * height, color=motion_colour(each.motion), **pale,
         )  # fmt: skip
-    ax.set_yticks(range(len(motions)), motions)
+    ax.set_yticks(range(len(motions)), list(map(str, motions)))
     ax.tick_params(axis="y", length=0)
     ax.set(ylim=(len(motions) - 0.5, -0.5), xlabel=LABELS.get(parameter or "", parameter))
     ax.set_xlim(min(each.lower for _, each in rows), max(each.upper for _, each in rows))
@@ -274,7 +270,7 @@ def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
     Parameters
     ----------
     shares : xarray.Dataset
-        Of `gearpair.motion_shares`.
+        Of `gearpair.motion.motion_shares`.
     ax : Axes, optional
     legend : bool
         Name the colours above the axes.
@@ -286,10 +282,10 @@ def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
     """
     ax = new_axes(ax)
     parameter = str(shares.share.dims[0])
-    values, motions = shares[parameter].values, shares.motion.values.tolist()
+    values, motions = shares[parameter].values, motions_of(shares)
     bands = shares.share.values.T
     colours = [motion_colour(motion) for motion in motions]
-    ax.stackplot(values, bands, labels=motions, colors=colours, linewidth=0.4, edgecolor="white")
+    ax.stackplot(values, bands, labels=list(map(str, motions)), colors=colours, linewidth=0.4, edgecolor="white")
     ax.set(xlabel=LABELS[parameter], ylabel="share of the starts", xlim=(values.min(), values.max()), ylim=(0, 1))
     if legend:
         add_motion_legend(ax, motions)

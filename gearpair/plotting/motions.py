@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gearpair.motion.names import motion_name
 from gearpair.motion.spectra import Spectrum
 from gearpair.motion.spectra import spectrum as spectrum_of
 from gearpair.motion.steady import SteadyState
@@ -179,7 +179,7 @@ def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: s
             figure = plt.figure(figsize=(8.0, 5.4))
             axes = list(figure.subplots(2, 2).flat)
     period = state.period
-    colour = motion_colour(motion_name(state.status, period))
+    colour = motion_colour(state.motion)
     n_periods = period * -(-SPECTRUM_PERIODS // period) if period else CHAOS_PERIODS
     x, v = map(float, state.points[0])
     motion = trajectory(state.oscillator, x, v, n_periods)
@@ -193,13 +193,13 @@ def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: s
     return list(axes)
 
 
-def gallery(states: Mapping[str, SteadyState], *, parameter: str = "mesh_frequency") -> Figure:
+def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequency") -> Figure:
     """Settled motions under one another, each a row of the four views of `portrait`.
 
     Parameters
     ----------
-    states : mapping of str to SteadyState
-        By name, as `gearpair.representatives` gives them.
+    states : mapping of Motion or str to SteadyState
+        By name, as `gearpair.motion.representatives` gives them.
     parameter : str
         Whose value is told beside the name.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -11,11 +12,11 @@ from matplotlib.colors import ListedColormap, to_rgb
 from matplotlib.patches import Patch
 
 from gearpair.motion.impacts import ImpactState
-from gearpair.motion.initial_conditions import attractor_names
-from gearpair.motion.names import IMPACT_NAMES, motion_name, motion_names
+from gearpair.motion.initial_conditions import attractor_motions
+from gearpair.motion.names import IMPACT_NAMES, Motion, motions_of
 from gearpair.motion.steady import SteadyState
 from gearpair.plotting.diagrams import shade_backlash
-from gearpair.plotting.style import LABELS, add_motion_legend, legend_name, motion_colour, new_axes
+from gearpair.plotting.style import LABELS, add_motion_legend, motion_colour, new_axes
 
 # The harsher the darker.
 IMPACT_COLOURS: Mapping[str, str] = {
@@ -31,12 +32,11 @@ IMPACT_COLOURS: Mapping[str, str] = {
 
 def attractor_colours(result: xr.Dataset) -> list[tuple[float, float, float]]:
     """One colour for each attractor of `gearpair.basins`: its motion's, paler for the second of a kind and so on."""
-    colours, seen = [], dict[str, int]()
-    for status, period in zip(result.attractor_status.values, result.attractor_period.values, strict=True):
-        name = motion_name(str(status), int(period))
-        shade = 0.6 ** seen.get(name, 0)
-        seen[name] = seen.get(name, 0) + 1
-        red, green, blue = (1.0 - shade * (1.0 - part) for part in to_rgb(motion_colour(name)))
+    colours, seen = [], Counter[Motion]()
+    for motion in attractor_motions(result):
+        shade = 0.6 ** seen[motion.kind]
+        seen[motion.kind] += 1
+        red, green, blue = (1.0 - shade * (1.0 - part) for part in to_rgb(motion_colour(motion)))
         colours.append((red, green, blue))
     return colours
 
@@ -60,7 +60,7 @@ def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -
     colours = attractor_colours(result)
     _map(ax, result, result.attractor.values + 1, [(1.0, 1.0, 1.0), *colours])
     if legend:
-        _patches(ax, dict(zip(attractor_names(result), colours, strict=True)))
+        _patches(ax, dict(zip(map(str, attractor_motions(result)), colours, strict=True)))
     return ax
 
 
@@ -119,10 +119,10 @@ def attractor_points(states: Sequence[SteadyState], ax: Axes) -> Axes:
     """
     for state in states:
         if state.period:
-            name = motion_name(state.status, state.period)
             ax.plot(
-                state.points[:, 0], state.points[:, 1], linestyle="", marker="o", markersize=5.5, label=name,
-                markerfacecolor=motion_colour(name), markeredgecolor="white", markeredgewidth=1.0,
+                state.points[:, 0], state.points[:, 1], linestyle="", marker="o", markersize=5.5,
+                label=str(state.motion.kind), markerfacecolor=motion_colour(state.motion), markeredgecolor="white",
+                markeredgewidth=1.0,
             )  # fmt: skip
     return ax
 
@@ -175,18 +175,21 @@ def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     ValueError
         For a map with another number of axes.
     """
-    names = motion_names(result)
-    if names.ndim != 2:
-        raise ValueError(f"result must be a map over two parameters, got {names.ndim}: {', '.join(result.status.dims)}")
+    motions = motions_of(result)
+    if motions.ndim != 2:
+        raise ValueError(
+            f"result must be a map over two parameters, got {motions.ndim}: {', '.join(result.status.dims)}"
+        )
     ax = new_axes(ax, 4.6)
     vertical, horizontal = (str(dim) for dim in result.status.dims)
-    colours = {name: to_rgb(motion_colour(str(name))) for name in np.unique(names)}
-    pixels = np.array([[colours[name] for name in row] for row in names])
+    present = set(motions.ravel())
+    colours = {motion: to_rgb(motion_colour(motion)) for motion in present}
+    pixels = np.array([[colours[motion] for motion in row] for row in motions])
     x, y = result[horizontal].values, result[vertical].values
     half_x, half_y = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
     extent = (x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y)
     ax.imshow(pixels, origin="lower", extent=extent, aspect="auto", interpolation="nearest")
     ax.set(xlabel=LABELS[horizontal], ylabel=LABELS[vertical])
     if legend:
-        add_motion_legend(ax, {legend_name(str(name)) for name in np.unique(names)})
+        add_motion_legend(ax, present)
     return ax

@@ -11,6 +11,9 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
+from gearpair.article.published import CHAOTIC, COMPLEX
+from gearpair.motion.names import CHAOS, Motion
+
 # For plt.style.use: a figure that fills the book's column, with text of the size of the book's captions.
 STYLE: dict[str, Any] = {
     "figure.figsize": (8.0, 3.4),
@@ -52,8 +55,6 @@ MOTION_COLOURS = MappingProxyType(
         "escaped": "#E5E5E5",
     }
 )
-# What the article calls its motions, in these colours.
-SYNONYMS = {"chaotic": "chaos", "complex": "chaos", "aperiodic": "chaos"}
 
 BACKLASH = "#F1EDE4"  # the strip where the teeth are out of contact
 BOUNDARY = "#8C8577"
@@ -77,34 +78,30 @@ LABELS = {
 }
 
 
-def motion_colour(motion: str) -> str:
-    """The colour of a motion, by its name such as ``"period 2"`` or ``"chaos"``.
+def motion_colour(motion: Motion) -> str:
+    """The colour of a motion, whatever its impact state.
 
     Examples
     --------
-    >>> motion_colour("period 1"), motion_colour("period 17") == motion_colour("other periods")
+    >>> from gearpair.motion import periodic
+    >>> motion_colour(periodic(1)), motion_colour(periodic(17)) == MOTION_COLOURS["other periods"]
     ('#0072B2', True)
     """
-    motion = SYNONYMS.get(motion, motion)
-    fallback = "other periods" if motion.startswith("period") else "unsettled"
-    return MOTION_COLOURS.get(motion, MOTION_COLOURS[fallback])
+    return MOTION_COLOURS.get(legend_name(motion), MOTION_COLOURS["unsettled"])
 
 
-def legend_name(motion: str) -> str:
+def legend_name(motion: Motion) -> str:
     """The entry of the legend that a motion comes under: its own, or that of its colour."""
-    motion = SYNONYMS.get(motion, motion)
-    if motion in MOTION_COLOURS or not motion.startswith("period"):
-        return motion
-    return "other periods"
+    kind = CHAOS if motion in (COMPLEX, CHAOTIC) else motion.kind
+    name = str(kind)
+    return "other periods" if kind.period and name not in MOTION_COLOURS else name
 
 
-def add_motion_legend(ax: Axes, motions: Iterable[str]) -> None:
+def add_motion_legend(ax: Axes, motions: Iterable[Motion]) -> None:
     """A row of coloured dots above the axes, in the order of `MOTION_COLOURS`."""
-    present = {legend_name(motion) for motion in motions}
-    names = [name for name in MOTION_COLOURS if name in present] + sorted(present - set(MOTION_COLOURS))
-    dots = [
-        Line2D([], [], linestyle="", marker="o", markersize=5, color=motion_colour(name), label=name) for name in names
-    ]
+    present = {legend_name(motion): motion_colour(motion) for motion in motions}
+    names = [name for name in MOTION_COLOURS if name in present] + sorted(present.keys() - MOTION_COLOURS.keys())
+    dots = [Line2D([], [], linestyle="", marker="o", markersize=5, color=present[name], label=name) for name in names]
     size = 8.5 if len(dots) < 8 else 7.5  # so that a long row does not push the axes aside
     ax.legend(
         handles=dots, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(dots), handletextpad=0.1,

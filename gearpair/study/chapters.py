@@ -12,6 +12,7 @@ from __future__ import annotations
 import ast
 import io
 import tokenize
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -144,7 +145,7 @@ class Chapter:
         """How the command line calls it: the notebook's file name without its suffix."""
         return self.path.stem
 
-    def parse(self, given: list[tuple[str, str]]) -> dict[str, Any]:
+    def parse(self, given: Iterable[tuple[str, str]]) -> dict[str, Any]:
         """Values for the names and texts given, checked against the schema.
 
         Raises

@@ -14,8 +14,8 @@ def main() -> None:
     gp.lyapunov_exponents(osc, 1.0, 0.0, 20)
     orbit = next(orbit for orbit in gp.find_orbits(osc, 2, n_starts=50) if orbit.period == 2)
     gp.continue_orbit(orbit, "mesh_frequency", 0.69, 0.71)
-    gp.runge_kutta_sweep(osc, "mesh_frequency", [0.7, 0.8], rtol=1e-3, atol=1e-6)
-    gp.runge_kutta_sweep(osc, "mesh_frequency", [0.7, 0.8], rtol=1e-3, atol=1e-6, seeding="restart")
+    for integrator in (gp.methods.Integrator(steps=20), gp.methods.Integrator(rtol=1e-3)):
+        integrator.sections([osc], 1.0, 0.0, 1, 1)
 
 
 if __name__ == "__main__":
