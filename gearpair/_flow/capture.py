@@ -48,7 +48,7 @@ def inside(neighbourhoods, n, x, v):
 
 @kernel
 def surround(cells, x, v, period, owner, rows, series):
-    """Certify neighbourhoods of the stable cycle through (x, v), one row for each section point: whether there are any."""
+    """Certify a neighbourhood of each section point of the stable cycle through (x, v): whether there are any."""
     steps = np.empty((period, 2, 2))
     for i in range(period):
         rows[i, X], rows[i, V], rows[i, OWNER] = x, v, owner
@@ -173,7 +173,7 @@ def grow_segment(cells, j, region, duration, series, s, form, bounds):
             # Between two points a curve is off its chord by at most h^2 / 8 times its second derivative, taken here
             # from the ends and, for the cycle, with the most that its jerk can add.
             slack = 1.1 * h * h / 8.0
-            sag = slack * (max(bend, bend1) + h * jerk_bound(cells, series, basis, width))
+            sag = slack * (max(bend, bend1) + h * jerk_bound(series, width))
             a = max(alpha, alpha1) + slack * (own * max(alpha, alpha1) + 2.0 * zeta * max(alpha_v, alpha_v1))
             b = max(beta, beta1) + slack * (
                 2.0 * zeta * max(beta_x, beta_x1) + abs(4.0 * zeta * zeta - own) * max(beta, beta1)
@@ -188,7 +188,7 @@ def grow_segment(cells, j, region, duration, series, s, form, bounds):
 
 
 @kernel
-def jerk_bound(cells, series, basis, width):
+def jerk_bound(series, width):
     """A bound of |X'''| over the segment of a power series."""
     total = 0.0
     for n in range(TERMS - 1, 2, -1):

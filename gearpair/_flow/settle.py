@@ -13,7 +13,7 @@ from .capture import COLUMNS, OWNER, V, X, inside, surround
 from .cells import Parameters, build_cells
 from .closed_form import TERMS
 from .march import ESCAPED, OK, march
-from .observe import N_MEASURES, extremes, measure, widen
+from .observe import extremes, measure, widen
 from .tangent import exponents, march_tangent, newton
 
 PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED, NOT_RUN, EXHAUSTED = 0, 1, 2, 3, 4, 5, 6
@@ -117,7 +117,7 @@ def follow(cells, x, v, n_transient, max_period, n_known, neighbourhoods, way, m
     """Follow a motion until it is captured: (status, owner, period, x, v, x*, v*).
 
     The `owner` is the row of the known attractor that captured it, or -1; the period, if not 0, is that of an orbit
-    of its own through (x*, v*), with monodromy `m`. (x, v) is the captured motion's limit, or the last point marched to.
+    of its own through (x*, v*), with monodromy `m`. (x, v) is the captured motion's limit, or the last point reached.
     Rows of `neighbourhoods` from `n_known` on are scratch. Fills `way` (4,).
     """
     low, high = x, x
@@ -264,11 +264,11 @@ def copy_row(known, k, out, i):
 
 @kernel
 def smallest_point(cells, x, v, period, series):
-    """The point of a cycle with the smallest X on the section."""
+    """The point of a cycle with the smallest X on the section; of points with the same X that with the smaller X'."""
     xs, vs = x, v
     for _ in range(period - 1):
         _status, x, v = march(cells, x, v, 1, series)
-        if x < xs:
+        if x < xs - SAME_POINT or (x <= xs + SAME_POINT and v < vs):
             xs, vs = x, v
     return xs, vs
 
@@ -296,9 +296,7 @@ def settle_rows(first, last, lanes, chain, max_period, n_exponent, most, known, 
             x, v = out.final[i - 1, 0], out.final[i - 1, 1]
         s = lanes.scalars[i]
         cells = build_cells(Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i]))
-        settle(
-            cells, x, v, lanes.n_transient[i], max_period, n_exponent, most, known, neighbourhoods, out, i, series
-        )
+        settle(cells, x, v, lanes.n_transient[i], max_period, n_exponent, most, known, neighbourhoods, out, i, series)
 
 
 @kernel
