@@ -31,7 +31,8 @@ COLUMNS = 6
 # Contraction asked of the norms, as a power of the cycle's own: the nearer to 1, the more they are stretched.
 SHARPNESS = 0.95
 LARGEST, RATIO, RADII = 2.0, 0.8, 60  # radii tried, from the largest down
-PARTS = 8  # of a segment, finer towards its ends, where the boundary is near
+# Parts of a segment, smaller towards its ends, where the boundary is near; a cycle that nearly grazes needs more.
+PARTS = (8, 32)
 LEAST = 1e-6  # a smaller neighbourhood says no more than a return does
 
 
@@ -66,18 +67,22 @@ def surround(cells, x, v, period, owner, rows, series):
     for k in range(1, RADII):
         radii[k] = RATIO * radii[k - 1]
     bounds = np.empty((period + 1, RADII))
-    bounds[0] = radii
-    for i in range(period):
-        bounds[i + 1] = bounds[i]
-        grow(cells, rows[i, X], rows[i, V], forms[i], bounds[i + 1], series)
+    for parts in PARTS:
+        bounds[0] = radii
+        for i in range(period):
+            bounds[i + 1] = bounds[i]
+            grow(cells, rows[i, X], rows[i, V], forms[i], parts, bounds[i + 1], series)
+            bounds[i + 1] *= factors[i]
         for k in range(RADII):
-            bounds[i + 1, k] *= factors[i]
-    for k in range(RADII):
-        if bounds[period, k] < (1.0 - 1e-6) * radii[k]:
-            for i in range(period):
-                scale = 1.0 / bounds[i, k] ** 2
-                rows[i, QXX], rows[i, QXV], rows[i, QVV] = forms[i, 0] * scale, forms[i, 1] * scale, forms[i, 2] * scale
-            return radii[k] > LEAST
+            if radii[k] > LEAST and bounds[period, k] < (1.0 - 1e-6) * radii[k]:
+                for i in range(period):
+                    scale = 1.0 / bounds[i, k] ** 2
+                    rows[i, QXX], rows[i, QXV], rows[i, QVV] = (
+                        forms[i, 0] * scale,
+                        forms[i, 1] * scale,
+                        forms[i, 2] * scale,
+                    )
+                return True
     return False
 
 
@@ -131,7 +136,7 @@ def contracting_norms(steps, forms, factors):
 
 
 @kernel
-def grow(cells, x, v, form, bounds, series):
+def grow(cells, x, v, form, parts, bounds, series):
     """Let the bounds W of several radii grow over the mesh period that starts at (x, v) of the cycle."""
     s = np.eye(2)
     region = first_region(cells, x, v)
@@ -139,7 +144,7 @@ def grow(cells, x, v, form, bounds, series):
         t = 0.0
         while True:
             outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
-            grow_segment(cells, j, region, duration, series, s, form, bounds)
+            grow_segment(cells, j, region, duration, series, s, form, parts, bounds)
             if outcome == INSIDE:
                 break
             t += duration
@@ -147,7 +152,7 @@ def grow(cells, x, v, form, bounds, series):
 
 
 @kernel
-def grow_segment(cells, j, region, duration, series, s, form, bounds):
+def grow_segment(cells, j, region, duration, series, s, form, parts, bounds):
     """`grow` over one segment of cell `j`; `s` becomes the variational flow at its end."""
     width, level = cells.clock[j, WIDTH], cells.level[j]
     basis = cells.bases[level, abs(region)]
@@ -156,8 +161,8 @@ def grow_segment(cells, j, region, duration, series, s, form, bounds):
     start = s.copy()
     gap, bend, alpha, alpha_v, beta, beta_x = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     before = 0.0
-    for part in range(PARTS + 1):
-        at = duration * np.sin(0.5 * np.pi * part / PARTS) ** 2
+    for part in range(parts + 1):
+        at = duration * np.sin(0.5 * np.pi * part / parts) ** 2
         p, _dp, ddp = evaluate(series, at)
         xx, vx, _ = evaluate(basis[0], at)
         xv, vv, _ = evaluate(basis[1], at)

@@ -14,13 +14,13 @@ from .cells import Parameters, build_cells
 from .closed_form import TERMS
 from .march import ESCAPED, OK, march
 from .observe import extremes, measure, widen
-from .tangent import exponents, march_tangent, newton
+from .tangent import NEWTON_STEPS, exponents, march_tangent, newton
 
 PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED, NOT_RUN, EXHAUSTED = 0, 1, 2, 3, 4, 5, 6
 
 # A return as close as PROMISING, relative to max(1, |X|, |X'|), is worth a Newton search for a stable orbit whose
-# neighbourhood may capture the motion; after a search in vain the next return must be LESS times as close.
-PROMISING, LESS = 1e-2, 0.1
+# neighbourhood may capture the motion: a short one, for most are in vain, and then the next return must be LESS as far.
+PROMISING, LESS, FEW_STEPS = 1e-2, 0.1, 7
 # Where no neighbourhood can be certified, a return within RETURNED counts if the stable orbit lies within CAPTURED.
 RETURNED, CAPTURED = 1e-8, 1e-6
 # Periods after which a motion is first compared with where it was; the span doubles up to the longest period.
@@ -97,16 +97,16 @@ def find_return(cells, x, v, max_period, closeness, capture, m, series):
         if status != OK:
             return status, 0, x, v, x, v
         if distance(x, v, x0, v0) <= closeness:
-            found, xs, vs = stable_orbit(cells, x, v, period, m, series)
+            found, xs, vs = stable_orbit(cells, x, v, period, NEWTON_STEPS, m, series)
             if found > 0 and distance(x, v, xs, vs) <= capture:
                 return OK, found, x, v, xs, vs
     return OK, 0, x, v, x, v
 
 
 @kernel
-def stable_orbit(cells, x, v, period, m, series):
+def stable_orbit(cells, x, v, period, steps, m, series):
     """The stable orbit that Newton's method finds from (x, v): (minimal period or 0, x*, v*); `m` its monodromy."""
-    converged, xs, vs, _residual = newton(cells, x, v, period, m, series)
+    converged, xs, vs, _residual = newton(cells, x, v, period, m, series, steps)
     if converged and spectral_radius(m) < STABLE:
         return minimal_period(cells, xs, vs, period, m, series), xs, vs
     return 0, xs, vs
@@ -137,7 +137,8 @@ def follow(cells, x, v, n_transient, max_period, n_known, neighbourhoods, way, m
         held = inside(neighbourhoods, n, x, v)
         gap = distance(x, v, x0, v0)
         if held < 0 and gap <= closeness:
-            found, xo, vo = stable_orbit(cells, x, v, within, m, series)
+            steps = NEWTON_STEPS if gap <= RETURNED else FEW_STEPS
+            found, xo, vo = stable_orbit(cells, x, v, within, steps, m, series)
             if found > 0 and inside(neighbourhoods, n_known, xo, vo) < 0:
                 period, xs, vs, n = found, xo, vo, n_known
                 if surround(cells, xs, vs, period, -1.0, neighbourhoods[n_known:], series):

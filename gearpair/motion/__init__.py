@@ -26,6 +26,7 @@ from gearpair.motion.stability import lyapunov_exponents, multipliers_of
 from gearpair.motion.steady import SteadyState, steady_state
 from gearpair.motion.stores import decoded
 from gearpair.motion.sweeps import parameter_map, sweep
+from gearpair.motion.tipping import continue_attractors
 from gearpair.motion.trajectories import Impacts, Trajectory, stroboscopic_map, trajectory
 from gearpair.motion.uncertainty import BasinEntropy, UncertaintyExponent, basin_entropy, uncertainty_exponent
 from gearpair.motion.zero_one import zero_one_test
@@ -48,6 +49,7 @@ __all__ = [
     "basin_entropy",
     "basin_stability",
     "basins",
+    "continue_attractors",
     "decoded",
     "follow",
     "found_ranges",

@@ -242,10 +242,7 @@ def basin_stability(
     True
     """
     n = check_count("n", n)
-    for name, reach in (("x_reach", x_reach), ("v_reach", v_reach)):
-        if not -np.inf < reach[0] < reach[1] < np.inf:
-            raise ValueError(f"{name} must be two finite numbers in rising order, got {reach}")
-    starts = np.random.default_rng(seed).uniform((x_reach[0], v_reach[0]), (x_reach[1], v_reach[1]), (n, 2))
+    starts = random_starts(n, x_reach, v_reach, seed)
     settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
     out = settle_from(osc, starts, settings, known_attractors(osc, starts[seeds(n)], settings))
     found, _ = found_in(settled_columns(out))
@@ -254,6 +251,14 @@ def basin_stability(
 
     numbers = {"attractor_number": np.arange(len(table["counts"]))}
     return xr.Dataset(attractor_variables(table, n, errors=True), numbers, {"n": n, "oscillator": repr(osc)})
+
+
+def random_starts(n: int, x_reach: tuple[float, float], v_reach: tuple[float, float], seed: int) -> NDArray[np.float64]:
+    """Starts (n, 2) drawn evenly from a rectangle, or a ValueError that says what is wrong with it."""
+    for name, reach in (("x_reach", x_reach), ("v_reach", v_reach)):
+        if not -np.inf < reach[0] < reach[1] < np.inf:
+            raise ValueError(f"{name} must be two finite numbers in rising order, got {reach}")
+    return np.random.default_rng(seed).uniform((x_reach[0], v_reach[0]), (x_reach[1], v_reach[1]), (n, 2))
 
 
 def attractor_motions(result: xr.Dataset, least_share: float = 0.0) -> list[Motion]:

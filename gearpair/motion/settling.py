@@ -91,7 +91,7 @@ class SettleSettings:
 
     def share_of_work(self, n: int) -> int:
         """Mesh periods that one of `n` motions may take."""
-        return UNLIMITED if self.most_work is None else max(1, self.most_work // n)
+        return UNLIMITED if self.most_work is None else self.most_work // max(n, 1)
 
 
 def transient_periods(osc: Oscillator) -> int:
@@ -114,6 +114,8 @@ def settle_lanes(
     settings: SettleSettings,
     *,
     chain: int = 1,
+    share: int | None = None,
+    cores: bool = True,
     progress: bool = False,
 ) -> Settled:
     """Follow each oscillator from its start until it settles, in parallel over the cores.
@@ -128,6 +130,10 @@ def settle_lanes(
     chain : int
         Lanes in a chain, a divisor of n: each but the first of its chain starts where the one before it ended. 1
         starts every lane from its own start, n makes one carried sweep.
+    share : int, optional
+        The most mesh periods of one motion, where the batch is only a part of what `settings.most_work` is for.
+    cores : bool
+        Spread the motions over the cores.
     progress : bool
         Show a progress bar on stderr.
 
@@ -138,12 +144,12 @@ def settle_lanes(
     """
     n = len(oscillators)
     out = room(n, settings)
-    share = settings.share_of_work(n)
+    most = settings.share_of_work(n) if share is None else share
     known = Known(room(0, settings), np.empty((0, COLUMNS)))
     lanes = lanes_of(oscillators, starts, settings)
-    arguments = (lanes, chain, settings.max_period, settings.n_exponent, share, known, out)
+    arguments = (lanes, chain, settings.max_period, settings.n_exponent, most, known, out)
     with stoppable(out, progress) as done:
-        if chain == n:
+        if chain == n or not cores:
             for first in range(0, n, BLOCK):
                 last = min(first + BLOCK, n)
                 settle_rows(first, last, *arguments)

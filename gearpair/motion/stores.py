@@ -86,19 +86,11 @@ def fill_block(job: Job, path: str, i: int, *, cores: bool = True) -> None:
     import zarr
 
     group = zarr.open_group(path, mode="r+")
-    rows = block_rows(job)
-    first = i * rows
-    last = min(first + rows, len(next(iter(job.axes.values()))))
+    first, last = _blocks(job, group)[i]
     for name, column in job.columns(first, last, cores=cores).items():
         array = group[name]
         array[first:last] = column.reshape(last - first, *array.shape[1:])
     group["done"][i] = True
-
-
-def block_rows(job: Job) -> int:
-    """Rows of the first axis in a block."""
-    lengths = [len(values) for values in job.axes.values()]
-    return max(1, min(lengths[0], BLOCK_POINTS // max(1, int(np.prod(lengths[1:])))))
 
 
 def add_column(job: Job, group: Group, name: str, dtype: Any) -> Any:
@@ -118,9 +110,7 @@ def add_table(group: Group, variables: Mapping[str, Any]) -> None:
 
 def read_blocks(job: Job, group: Group, names: list[str]) -> Any:
     """For each block in turn its first and last row and the columns `names`, flat."""
-    rows, n = block_rows(job), len(next(iter(job.axes.values())))
-    for first in range(0, n, rows):
-        last = min(first + rows, n)
+    for first, last in _blocks(job, group):
         yield first, last, {name: group[name][first:last].ravel() for name in names}
 
 
@@ -190,8 +180,16 @@ def _opened(job: Job, path: Path) -> Group:
     return group
 
 
+def _blocks(job: Job, group: Group) -> list[tuple[int, int]]:
+    """First and last row of each block of a store."""
+    n, rows = len(next(iter(job.axes.values()))), int(group.attrs["rows"])
+    return [(first, min(first + rows, n)) for first in range(0, n, rows)]
+
+
 def _lay_out(job: Job, group: Group) -> None:
     """All arrays of a store, empty but for the axes."""
+    lengths = [len(values) for values in job.axes.values()]
+    group.attrs["rows"] = max(1, min(lengths[0], BLOCK_POINTS // max(1, int(np.prod(lengths[1:])))))
     group.attrs["oscillator"] = job.identity["oscillator"]
     for name, column in job.columns(0, 0).items():
         _create(job, group, name, column)
@@ -201,14 +199,14 @@ def _lay_out(job: Job, group: Group) -> None:
             overwrite=True,
         )  # fmt: skip
         array[:] = values
-    blocks = -(-len(next(iter(job.axes.values()))) // block_rows(job))
+    blocks = len(_blocks(job, group))
     group.create_array("done", shape=(blocks,), chunks=(1,), dtype=bool, dimension_names=("block",), overwrite=True)
 
 
 def _create(job: Job, group: Group, name: str, empty: NDArray[Any]) -> Any:
     shape = tuple(len(values) for values in job.axes.values())
     facts = variables_of({name: empty}, (name,), (0,), coded=True)[name][2]
-    chunks = (block_rows(job), *shape[1:])
+    chunks = (int(group.attrs["rows"]), *shape[1:])
     return group.create_array(
         name, shape=shape, chunks=chunks, dtype=empty.dtype, dimension_names=tuple(job.axes), attributes=facts,
         overwrite=True,
