@@ -52,9 +52,8 @@ def test_a_neighbourhood_is_mapped_into_itself(osc, x, v):
         np.testing.assert_allclose(size(row, rim), 1.0, rtol=1e-9)
         image = np.stack(gp.stroboscopic_map(osc, rim[:, 0], rim[:, 1], state.period), axis=1)
         assert size(row, image).max() < 1.0
-    far = np.stack(
-        gp.stroboscopic_map(osc, *edge(rows[0], 50).T, 60 * state.period * int(1 / osc.damping_ratio) // 50), 1
-    )
+    n = state.period * (40 + int(3.0 / osc.damping_ratio))
+    far = np.stack(gp.stroboscopic_map(osc, *edge(rows[0], 50).T, n), axis=1)
     assert np.abs(far - state.points[0]).max() < 1e-6
 
 
@@ -188,7 +187,7 @@ def test_without_damping_the_limit_on_work_ends_it():
 
 
 def test_the_cycle_of_a_linear_pair_captures_everything_at_once():
-    """Far from both boundaries the neighbourhood reaches to where the teeth part."""
+    """Far from both boundaries the neighbourhood is large: half the backlash."""
     osc = level(0.9, mean_force=4.0, damping_ratio=0.1, mesh_frequency=1.3)
     _, rows = neighbourhoods(osc, 5.0, 0.0)
-    assert (rows[0, QXX] * rows[0, QVV] - rows[0, QXV] ** 2) ** -0.25 > 0.5
+    assert (rows[0, QXX] * rows[0, QVV] - rows[0, QXV] ** 2) ** -0.25 > 0.4

@@ -129,8 +129,6 @@ def way_columns(out: Settled) -> dict[str, NDArray[Any]]:
     low, high = np.fmin(out.way[:, 2], out.extremes[:, 0]), np.fmax(out.way[:, 3], out.extremes[:, 1])
     settled = out.status == PERIODIC
     return {
-        "section_x": "X on the section, the smallest of the cycle; nan unless periodic",
-        "section_v": "X' there",
         "settling_time": np.where(settled, out.way[:, 0], np.nan),
         "impacts_before": np.where(settled, out.way[:, 1], np.nan),
         "worst_impact_state": impact_codes(low, high),

@@ -134,13 +134,13 @@ def uncertainty_exponent(labels: ArrayLike, *, longest: int | None = None) -> Un
     longest = max(n // 16, 1) if longest is None else check_count("longest", longest)
     epsilon = 2 ** np.arange(int(np.log2(longest)) + 1)
     if len(epsilon) < 3 or 2 * epsilon[-1] >= n:
-        raise ValueError(
-            f"the plane must have at least 64 columns and longest lie from 4 to below half of them, got {n}"
-        )
+        raise ValueError(f"longest must be from 4 to below half of the plane's {n} columns, got {longest}")
+    edge = int(epsilon[-1])
+    inner = plane[:, edge : n - edge]  # the same starts for every error
     share = []
     for step in epsilon:
-        inner = plane[:, step : n - step]
-        differs = (inner != plane[:, : n - 2 * step]) | (inner != plane[:, 2 * step :])
+        left, right = plane[:, edge - step : n - edge - step], plane[:, edge + step : n - edge + step]
+        differs = (inner != left) | (inner != right)
         share.append(float(differs.mean()))
     if min(share) == 0.0:
         raise ValueError("the plane must have a boundary between different labels in its interior, got none")
