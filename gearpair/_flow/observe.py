@@ -4,7 +4,7 @@ import numpy as np
 
 from ._kernel import kernel
 from .cells import START, WIDTH
-from .closed_form import DEGREE, TERMS, evaluate
+from .closed_form import DEGREE, TERMS, evaluate, fourth_derivative_bound
 from .event_search import INSIDE, UNDECIDED, least_step, next_turn
 from .march import (
     ESCAPED,
@@ -41,10 +41,26 @@ def segment_extremes(series, end, low, high):
 
 
 @kernel
+def segment_within(series, end, x, slope, low, high):
+    """Whether the power series certainly stays within [low, high] on [0, end], where it is `x` with `slope`."""
+    b1, b2 = series[0] + series[1] * end / 3.0, x - slope * end / 3.0
+    if min(min(series[0], b1), min(b2, x)) < low or max(max(series[0], b1), max(b2, x)) > high:
+        return False
+    spread = fourth_derivative_bound(series, end) * end**4 / 384.0
+    return min(min(series[0], b1), min(b2, x)) - spread >= low and max(max(series[0], b1), max(b2, x)) + spread <= high
+
+
+@kernel
 def extremes(cells, x, v, n_periods, series):
     """Range of X and events over `n_periods`: (status, x, v, x_min, x_max, contacts of each side)."""
+    return widen(cells, x, v, n_periods, x, x, series)
+
+
+@kernel
+def widen(cells, x, v, n_periods, low, high, series):
+    """`extremes` of a motion whose range so far is [low, high]: cells that stay within it need no search."""
     region = first_region(cells, x, v)
-    low, high = x, x
+    low, high = min(low, x), max(high, x)
     drive, coast = 0, 0
     for _ in range(n_periods):
         events = 0
@@ -58,7 +74,8 @@ def extremes(cells, x, v, n_periods, series):
                 outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
                 if outcome == UNDECIDED:
                     return EVENT_UNDECIDED, x, v, low, high, drive, coast
-                low, high = segment_extremes(series, duration, low, high)
+                if not segment_within(series, duration, x, v * cells.clock[j, WIDTH], low, high):
+                    low, high = segment_extremes(series, duration, low, high)
                 if outcome == INSIDE:
                     break
                 t += duration

@@ -101,11 +101,11 @@ def march_tangent(cells, x, v, n_periods, m, series):
 
 
 @kernel
-def newton(cells, x, v, period, m, series):
+def newton(cells, x, v, period, m, series, steps=NEWTON_STEPS):
     """A fixed point of the `period`-fold map near (x, v): (converged, x, v, residual); `m` its monodromy."""
     residual = np.inf
     best_x, best_v = x, v
-    for _ in range(NEWTON_STEPS):
+    for _ in range(steps):
         m[0, 0], m[0, 1], m[1, 0], m[1, 1] = 1.0, 0.0, 0.0, 1.0
         status, x1, v1 = march_tangent(cells, x, v, period, m, series)
         if status != OK:

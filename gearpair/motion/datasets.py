@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_number
-from gearpair._flow.settle import Settled
-from gearpair.motion.impacts import impact_state
+from gearpair._flow.settle import PERIODIC, Settled
+from gearpair.motion.impacts import IMPACT_STATES, impact_codes
 from gearpair.motion.settling import STATUSES, Status
 from gearpair.oscillator import Oscillator
 
@@ -35,6 +35,42 @@ LONG_NAMES = {
     "x_max": "largest X",
     "exponent": "largest Lyapunov exponent per unit tau",
     "exponent_error": "standard error of the largest exponent",
+    "section_x": "X on the section, the smallest of the cycle; nan unless periodic",
+    "section_v": "X' there",
+    "settling_time": "mesh periods until the motion was certain to stay with its attractor",
+    "impacts_before": "contacts made in that time",
+    "worst_impact_state": "impact state of the whole way, the attractor included",
+    "largest_displacement": "largest |X| on the whole way, the attractor included",
+    "attractor": "number of the attractor",
+    "tips_to": "number of the attractor that one that has ended goes over to",
+    "share": "share of the starts",
+    "share_error": "standard error of the share, for starts drawn at random",
+    "drive_impacts": "contacts made on the drive side per mesh period",
+    "coast_impacts": "contacts made on the coast side per mesh period",
+    "drive_velocity": "largest approach speed on the drive side",
+    "coast_velocity": "largest approach speed on the coast side",
+    "drive_velocity_mean": "mean approach speed on the drive side",
+    "coast_velocity_mean": "mean approach speed on the coast side",
+    "drive_impulse": "impulse on the drive side per mesh period",
+    "coast_impulse": "impulse on the coast side per mesh period",
+    "drive_share": "share of the time in drive-side contact",
+    "coast_share": "share of the time in coast-side contact",
+    "flight_share": "share of the time without contact",
+    "drive_force": "largest mesh force on the drive side",
+    "coast_force": "largest mesh force on the coast side",
+    "load_factor": "largest mesh force over the mean force",
+    "x_mean": "mean of X",
+    "x_rms": "root mean square of X about its mean",
+    "peak_to_peak": "peak-to-peak value of X",
+    "n_attractors": "number of attractors that the starts reach",
+    "hysteresis": "whether the motion carried up differs from that carried down",
+}
+
+# What the codes of a variable stand for; the first is code -1.
+WORDS: dict[str, tuple[str, ...]] = {
+    "status": ("", *map(str, STATUSES)),
+    "impact_state": ("", *map(str, IMPACT_STATES)),
+    "worst_impact_state": ("", *map(str, IMPACT_STATES)),
 }
 
 
@@ -52,7 +88,14 @@ def oscillators_along(
 
 def attributes(name: str) -> dict[str, str]:
     """Units and long name of a variable, by its name."""
-    return {"long_name": LONG_NAMES[name], "units": "rad" if name == "error_phase" else "1"}
+    long_name = LONG_NAMES.get(name) or LONG_NAMES[name.removeprefix("attractor_")]
+    return {"long_name": long_name, "units": "rad" if name == "error_phase" else "1"}
+
+
+def axis_attributes(name: str) -> dict[str, str]:
+    """Units and long name of an axis: a parameter, or X or X' of a plane of starts."""
+    start = {"x": "initial X", "v": "initial X'"}.get(name)
+    return attributes(name) if start is None else {"long_name": start, "units": "1"}
 
 
 def dataset(
@@ -65,24 +108,60 @@ def dataset(
     return xr.Dataset(variables, coordinates, {**settings, "oscillator": repr(osc)})
 
 
-def settled_variables(out: Settled, dims: tuple[str, ...], shape: tuple[int, ...]) -> dict[str, Any]:
-    """The per-motion results as xarray variables over `dims`."""
-    states = [
-        str(impact_state(low, high)) if np.isfinite(low) and np.isfinite(high) else ""
-        for low, high in out.extremes.tolist()
-    ]
-    columns = {
-        "status": np.array([str(STATUSES[code]) for code in out.status]),
+def settled_columns(out: Settled) -> dict[str, NDArray[Any]]:
+    """The per-motion results as numbers; status and impact state as codes."""
+    return {
+        "status": out.status.astype(np.int8),
         "period": out.period,
-        "impact_state": np.array(states),
+        "impact_state": impact_codes(out.extremes[:, 0], out.extremes[:, 1]),
         "x_min": out.extremes[:, 0],
         "x_max": out.extremes[:, 1],
         "exponent": out.exponents[:, 0],
         "exponent_error": out.exponents[:, 2],
+        "section_x": np.where(out.status == PERIODIC, out.points[:, 0, 0], np.nan),
+        "section_v": np.where(out.status == PERIODIC, out.points[:, 0, 1], np.nan),
     }
-    variables = {name: (dims, column.reshape(shape), attributes(name)) for name, column in columns.items()}
-    variables["status"][2]["remedies"] = "; ".join(f"{status}: {status.remedy}" for status in Status)
+
+
+def way_columns(out: Settled) -> dict[str, NDArray[Any]]:
+    """What happened before the motions settled, as numbers."""
+    # An impact on the way, or one of the motion itself, whichever is worse; nan where the motion was not followed.
+    low, high = np.fmin(out.way[:, 2], out.extremes[:, 0]), np.fmax(out.way[:, 3], out.extremes[:, 1])
+    settled = out.status == PERIODIC
+    return {
+        "settling_time": np.where(settled, out.way[:, 0], np.nan),
+        "impacts_before": np.where(settled, out.way[:, 1], np.nan),
+        "worst_impact_state": impact_codes(low, high),
+        "largest_displacement": np.fmax(np.abs(low), np.abs(high)),
+    }
+
+
+def variables_of(
+    columns: Mapping[str, NDArray[Any]], dims: tuple[str, ...], shape: tuple[int, ...], *, coded: bool = False
+) -> dict[str, Any]:
+    """Columns as xarray variables over `dims`; codes become words unless they are to stay `coded`."""
+    variables = {}
+    for name, column in columns.items():
+        facts: dict[str, Any] = attributes(name)
+        words = WORDS.get(name.removeprefix("attractor_"))
+        if words is not None and coded:
+            facts |= {
+                "flag_values": list(range(-1, len(words) - 1)),
+                "flag_meanings": " ".join(w or "-" for w in words),
+            }
+        elif words is not None:
+            column = np.array(words)[column + 1]
+        if name == "status":
+            facts["remedies"] = "; ".join(f"{status}: {status.remedy}" for status in Status)
+        variables[name] = (dims, column.reshape(shape), facts)
     return variables
+
+
+def settled_variables(out: Settled, dims: tuple[str, ...], shape: tuple[int, ...]) -> dict[str, Any]:
+    """The per-motion results as xarray variables over `dims`."""
+    columns = settled_columns(out)
+    del columns["section_x"], columns["section_v"]
+    return variables_of(columns, dims, shape)
 
 
 def symbol(parameter: str) -> str:

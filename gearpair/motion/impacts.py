@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from enum import StrEnum
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gearpair._checks import check_number
 
 
@@ -16,6 +19,9 @@ class ImpactState(StrEnum):
     SINGLE_COAST = "single_coast"
     DOUBLE = "double"
     NEVER_IN_CONTACT = "never_in_contact"
+
+
+IMPACT_STATES = tuple(ImpactState)  # in the order of the codes
 
 
 def impact_state(x_min: float, x_max: float) -> ImpactState:
@@ -65,3 +71,24 @@ def impact_state(x_min: float, x_max: float) -> ImpactState:
     if x_min <= -1.0:
         return ImpactState.SINGLE_COAST
     return ImpactState.NEVER_IN_CONTACT
+
+
+def impact_codes(x_min: NDArray[np.float64], x_max: NDArray[np.float64]) -> NDArray[np.int8]:
+    """`impact_state` of many motions, as indices into `IMPACT_STATES`; -1 where an extreme is not finite.
+
+    Examples
+    --------
+    >>> [IMPACT_STATES[code].value for code in impact_codes(np.array([0.2, -1.6]), np.array([1.8, 1.5]))]
+    ['single_drive', 'double']
+    """
+    cases = (
+        (~(np.isfinite(x_min) & np.isfinite(x_max)), None),
+        (x_min >= 1.0, ImpactState.NONE_DRIVE),
+        (x_max <= -1.0, ImpactState.NONE_COAST),
+        ((x_min >= -1.0) & (x_max >= 1.0), ImpactState.SINGLE_DRIVE),
+        ((x_min < -1.0) & (x_max > 1.0), ImpactState.DOUBLE),
+        (x_min <= -1.0, ImpactState.SINGLE_COAST),
+    )
+    codes = [-1 if state is None else IMPACT_STATES.index(state) for _, state in cases]
+    otherwise = IMPACT_STATES.index(ImpactState.NEVER_IN_CONTACT)
+    return np.select([case for case, _ in cases], codes, otherwise).astype(np.int8)

@@ -2,23 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._flow.settle import APERIODIC, PERIODIC, UNSETTLED, Settled
-from gearpair.motion.datasets import attributes, dataset, oscillators_along, settled_variables
+from gearpair._checks import check_count
+from gearpair._flow.settle import Known
+from gearpair.motion.capture import Found, found_in, known_attractors, number_attractors, seeds, settle_from
+from gearpair.motion.datasets import (
+    attributes,
+    axis_attributes,
+    dataset,
+    oscillators_along,
+    settled_columns,
+    variables_of,
+    way_columns,
+)
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import Motion, motions_from, motions_of
-from gearpair.motion.same_orbit import lies_on
-from gearpair.motion.settling import SettleSettings, settle_lanes
+from gearpair.motion.settling import SettleSettings
 from gearpair.motion.steady import SteadyState, steady_state
+from gearpair.motion.stores import add_column, add_table, fill, opened_dataset, read_blocks
 from gearpair.motion.trajectories import check_starts
 from gearpair.oscillator import Oscillator
 
 if TYPE_CHECKING:
     import xarray as xr
+    from distributed import Client
+
+ATTRACTOR_COLUMNS = ("status", "period", "impact_state", "x_min", "x_max", "exponent")
 
 
 def basins(
@@ -29,9 +45,12 @@ def basins(
     n_transient: int | None = None,
     max_period: int = 64,
     n_exponent: int = 500,
+    most_work: int | None = None,
+    store: str | Path | None = None,
+    client: Client | None = None,
     progress: bool = False,
 ) -> xr.Dataset:
-    """The attractor that each start of a grid reaches.
+    """The attractor that each start of a grid reaches, and what happens on the way.
 
     Parameters
     ----------
@@ -42,22 +61,42 @@ def basins(
         Initial X'.
     n_transient, max_period, n_exponent
         As in `steady_state`.
+    most_work : int, optional
+        Mesh periods that all starts together may take at most; a start that would need more than its share ends as
+        ``"exhausted"``.
+    store : path, optional
+        Write the result to a Zarr store, block by block, and return it from there: memory then holds one block. The
+        same call goes on with a store that was not finished. Codes stand for words, which
+        `gearpair.motion.decoded` puts back.
+    client : distributed.Client, optional
+        Compute the blocks on its workers, which must see the path of the store.
     progress : bool
         Show a progress bar on stderr.
 
     Returns
     -------
     xarray.Dataset
-        Over ``(v, x)``: ``attractor`` (its number, -1 where the motion did not stay bounded), ``status``, ``period``,
-        ``impact_state``, ``x_min``, ``x_max``, ``exponent``, ``exponent_error``. Over ``attractor_number``:
-        ``attractor_status``, ``attractor_period``, ``attractor_impact_state``, ``attractor_x``,
-        ``attractor_v`` (its section point of smallest X; nan unless periodic) and ``attractor_share`` of the starts.
-        Periodic attractors come first, by period and X; then all aperiodic motions as one, all unsettled ones as one.
+        Over ``(v, x)``: ``attractor`` (its number, -1 where the motion did not stay bounded or was not judged),
+        ``status``, ``period``, ``impact_state``, ``x_min``, ``x_max``, ``exponent``, ``exponent_error``; of the way
+        there ``worst_impact_state`` and ``largest_displacement`` (the attractor included), ``settling_time`` and
+        ``impacts_before`` (nan unless periodic). Over ``attractor_number``: ``attractor_status``,
+        ``attractor_period``, ``attractor_impact_state``, ``attractor_x_min``, ``attractor_x_max``,
+        ``attractor_exponent``, ``attractor_x``, ``attractor_v`` (its section point of smallest X; nan unless periodic)
+        and ``attractor_share`` of the starts. Periodic attractors come first, by period and X; then chaotic sets, told
+        apart by their extremes and exponents; then all unsettled motions as one.
 
     Raises
     ------
     ValueError
-        For starts that are not finite or not one-dimensional.
+        For starts that are not finite or not one-dimensional, or a store that was made with other arguments.
+    ImportError
+        For a store without zarr, which the extra ``cluster`` brings.
+
+    Notes
+    -----
+    Attractors are looked for from some of the starts first. Around each stable cycle a neighbourhood is certified that
+    no motion leaves, and every start is followed until one of them captures it: that is its settling time, rounded
+    up to a mesh period. What is not captured settles as in `steady_state`.
 
     Examples
     --------
@@ -70,63 +109,156 @@ def basins(
     for name, values in (("x", xs), ("v", vs)):
         if values.ndim != 1 or values.size == 0:
             raise ValueError(f"{name} must be a non-empty sequence of numbers, got shape {values.shape}")
-    v_grid, x_grid = np.meshgrid(vs, xs, indexing="ij")
-    starts = np.stack([x_grid.ravel(), v_grid.ravel()], axis=1)
-    settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
-    out = settle_lanes([osc] * len(starts), starts, settings, progress=progress)
-    labels, first = _attractors(out)
-    shape = (len(vs), len(xs))
-    variables = settled_variables(out, ("v", "x"), shape)
-    table = {
-        f"attractor_{name}": ("attractor_number", variables[name][1].ravel()[first], variables[name][2])
-        for name in ("status", "period", "impact_state", "x_min", "x_max", "exponent")
-    }
-    periodic = out.status[first] == PERIODIC
-    for i, name in enumerate(("x", "v")):
-        points = np.where(periodic, out.points[first, 0, i], np.nan)
-        table[f"attractor_{name}"] = ("attractor_number", points, attributes(name))
-    counts = np.bincount(labels[labels >= 0], minlength=len(first))
-    table["attractor_share"] = (
-        "attractor_number",
-        counts / len(labels),
-        {"long_name": "share of the starts", "units": "1"},
+    settings = SettleSettings(
+        n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1, most_work=most_work
     )
+    plane = Plane.of(osc, xs, vs, settings)
+    if store is not None or client is not None:
+        return _stored(plane, store, client, progress)
+    columns = plane.columns(0, len(vs), progress=progress)
+    found, places = found_in(columns)
+    (numbers,), table = number_attractors([found])
+    variables = variables_of(columns | {"attractor": numbers[places]}, ("v", "x"), (len(vs), len(xs)))
+    return plane_dataset(plane, variables, attractor_variables(table, len(places)))
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A plane of starts to be settled in any parts (a `gearpair.motion.stores.Job`)."""
+
+    osc: Oscillator
+    axes: dict[str, NDArray[np.float64]]
+    settings: SettleSettings
+    known: Known
+
+    @classmethod
+    def of(cls, osc: Oscillator, xs: NDArray[np.float64], vs: NDArray[np.float64], settings: SettleSettings) -> Plane:
+        """With the attractors that some of the starts reach, which are the same however the plane is cut."""
+        n = len(xs) * len(vs)
+        rows, columns = np.divmod(seeds(n), len(xs))
+        seed_starts = np.stack([xs[columns], vs[rows]], axis=1)
+        return cls(osc, {"v": vs, "x": xs}, settings, known_attractors(osc, seed_starts, settings))
+
+    @property
+    def identity(self) -> dict[str, str]:
+        """What the numbers depend on besides the axes."""
+        return {"kind": "basins", "oscillator": repr(self.osc), "settings": repr(self.settings)}
+
+    def columns(self, first: int, last: int, *, cores: bool = True, progress: bool = False) -> dict[str, NDArray[Any]]:
+        """The results for rows `first` to `last` of X', as codes."""
+        xs, vs = self.axes["x"], self.axes["v"]
+        starts = np.stack([np.tile(xs, last - first), np.repeat(vs[first:last], len(xs))], axis=1)
+        share = self.settings.share_of_work(len(xs) * len(vs))
+        out = settle_from(self.osc, starts, self.settings, self.known, share=share, cores=cores, progress=progress)
+        return settled_columns(out) | way_columns(out)
+
+
+def _stored(plane: Plane, store: str | Path | None, client: Client | None, progress: bool) -> xr.Dataset:
+    """`basins` by way of a store: the blocks, then one numbering for the attractors of all."""
+    if store is None:
+        raise ValueError("a client needs a store to write to, on a path that all its workers see: give store, too")
+    group = fill(plane, store, client=client, progress=progress)
+    if not group.attrs.get("complete"):
+        names = ["status", "period", "section_x", "section_v", "x_min", "x_max", "exponent", "impact_state"]
+        offsets, n_x = {}, len(plane.axes["x"])
+        found: list[Found] = []
+        for first, _last, columns in read_blocks(plane, group, names):
+            offsets[first] = len(found)
+            found.append(found_in(columns, first * n_x)[0])
+        numbers, table = number_attractors(found)
+        labels = add_column(plane, group, "attractor", np.int64)
+        for first, last, columns in read_blocks(plane, group, names):
+            places = found_in(columns, first * n_x)[1]
+            labels[first:last] = numbers[offsets[first]][places].reshape(last - first, n_x)
+        add_table(group, attractor_variables(table, len(plane.axes["v"]) * n_x, coded=True))
+    return opened_dataset(store)
+
+
+def plane_dataset(plane: Plane, variables: Mapping[str, Any], table: Mapping[str, Any]) -> xr.Dataset:
+    """Variables over a plane of starts, and over its attractors."""
     import xarray as xr  # here, so that importing gearpair stays quick
 
-    return xr.Dataset(
-        variables
-        | table
-        | {"attractor": (("v", "x"), labels.reshape(shape), {"long_name": "number of the attractor", "units": "1"})},
-        {
-            "v": ("v", vs, {"long_name": "initial X'", "units": "1"}),
-            "x": ("x", xs, {"long_name": "initial X", "units": "1"}),
-            "attractor_number": np.arange(len(first)),
-        },
-        {"oscillator": repr(osc)},
-    )
+    coordinates: dict[str, Any] = {name: (name, values, axis_attributes(name)) for name, values in plane.axes.items()}
+    coordinates["attractor_number"] = np.arange(len(table["attractor_share"][1]))
+    return xr.Dataset({**variables, **table}, coordinates, {"oscillator": repr(plane.osc)})
 
 
-def _attractors(out: Settled) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """A label per lane and, per label, a lane that shows the attractor."""
-    keys: list[tuple[float, ...]] = []
-    lanes: list[int] = []
-    found = np.full(len(out.status), -1)
-    for i, status in enumerate(out.status):
-        if status not in (PERIODIC, APERIODIC, UNSETTLED):
-            continue
-        orbit = status == PERIODIC
-        key = (float(status), float(out.period[i]), *(out.points[i, 0].tolist() if orbit else (0.0, 0.0)))
-        alike = [k for k, other in enumerate(keys) if key[:2] == other[:2]]
-        near = [k for k in alike if not orbit or lies_on(key[2:], out.points[lanes[k], : out.period[i]])]
-        if not near:
-            keys.append(key)
-            lanes.append(i)
-        found[i] = near[0] if near else len(keys) - 1
-    order = np.array(sorted(range(len(keys)), key=lambda k: keys[k]), dtype=int)
-    rank = np.empty(len(keys), dtype=int)
-    rank[order] = np.arange(len(keys))
-    labels = np.where(found >= 0, rank[found] if len(keys) else -1, -1)
-    return labels, np.array(lanes, dtype=int)[order]
+def attractor_variables(
+    table: Mapping[str, NDArray[Any]], n: int, *, errors: bool = False, coded: bool = False
+) -> dict[str, Any]:
+    """What each attractor is and its share of `n` starts, with the standard errors that random starts leave."""
+    share = table["counts"] / n
+    columns = {f"attractor_{name}": table[name] for name in ATTRACTOR_COLUMNS}
+    columns |= {"attractor_x": table["section_x"], "attractor_v": table["section_v"], "attractor_share": share}
+    if errors:
+        columns["attractor_share_error"] = np.sqrt(share * (1.0 - share) / n)
+    return variables_of(columns, ("attractor_number",), share.shape, coded=coded)
+
+
+def basin_stability(
+    osc: Oscillator,
+    n: int = 1000,
+    *,
+    x_reach: tuple[float, float] = (-4.0, 4.0),
+    v_reach: tuple[float, float] = (-3.0, 3.0),
+    seed: int = 0,
+    n_transient: int | None = None,
+    max_period: int = 64,
+    n_exponent: int = 500,
+) -> xr.Dataset:
+    """The share of random starts that each attractor takes, with its standard error.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    n : int
+        Starts, drawn evenly from the rectangle.
+    x_reach, v_reach : (float, float)
+        Smallest and largest X and X' of the rectangle.
+    seed : int
+        Of the random numbers: the same seed draws the same starts.
+    n_transient, max_period, n_exponent
+        As in `steady_state`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``attractor_number`` as of `basins`, with ``attractor_share_error`` besides.
+
+    Raises
+    ------
+    ValueError
+        For a count below 1 or a rectangle without area.
+
+    Notes
+    -----
+    Menck, Heitzig, Marwan and Kurths (2013). Each start is a Bernoulli trial, so a share S has the standard error
+    ``sqrt(S (1 - S) / n)``, whatever the shape of the basin.
+
+    Examples
+    --------
+    >>> stability = basin_stability(Oscillator(), 400)
+    >>> bool(abs(stability.attractor_share[0] - 0.5) < 4 * stability.attractor_share_error[0])
+    True
+    """
+    n = check_count("n", n)
+    starts = random_starts(n, x_reach, v_reach, seed)
+    settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
+    out = settle_from(osc, starts, settings, known_attractors(osc, starts[seeds(n)], settings))
+    found, _ = found_in(settled_columns(out))
+    _, table = number_attractors([found])
+    import xarray as xr  # here, so that importing gearpair stays quick
+
+    numbers = {"attractor_number": np.arange(len(table["counts"]))}
+    return xr.Dataset(attractor_variables(table, n, errors=True), numbers, {"n": n, "oscillator": repr(osc)})
+
+
+def random_starts(n: int, x_reach: tuple[float, float], v_reach: tuple[float, float], seed: int) -> NDArray[np.float64]:
+    """Starts (n, 2) drawn evenly from a rectangle, or a ValueError that says what is wrong with it."""
+    for name, reach in (("x_reach", x_reach), ("v_reach", v_reach)):
+        if not -np.inf < reach[0] < reach[1] < np.inf:
+            raise ValueError(f"{name} must be two finite numbers in rising order, got {reach}")
+    return np.random.default_rng(seed).uniform((x_reach[0], v_reach[0]), (x_reach[1], v_reach[1]), (n, 2))
 
 
 def attractor_motions(result: xr.Dataset, least_share: float = 0.0) -> list[Motion]:

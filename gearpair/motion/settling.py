@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -13,9 +14,12 @@ from tqdm import tqdm
 
 from gearpair._checks import check_count
 from gearpair._cores import on_all_cores
-from gearpair._flow.settle import NOT_RUN, Lanes, Settled, settle_rows
+from gearpair._flow.capture import COLUMNS
+from gearpair._flow.observe import N_MEASURES
+from gearpair._flow.settle import NOT_RUN, Known, Lanes, Settled, settle_rows
 from gearpair.oscillator import Oscillator
 
+UNLIMITED = 2**62
 BLOCK = 8  # motions between two moves of the progress bar, and between two chances to stop
 
 
@@ -28,6 +32,7 @@ class Status(StrEnum):
     ESCAPED = "escaped"
     CAPPED = "capped"
     NOT_RUN = "not_run"
+    EXHAUSTED = "exhausted"
 
     @property
     def remedy(self) -> str:
@@ -44,6 +49,7 @@ REMEDIES = {
     Status.ESCAPED: "the motion grows without bound: start nearer to the backlash zone, or raise damping_ratio",
     Status.CAPPED: "too many events in one mesh period: the oscillator is outside what a gear can do",
     Status.NOT_RUN: "the run was stopped before this value: run it again",
+    Status.EXHAUSTED: "the limit on work came before the motion was judged: raise most_work, or lower n_transient",
 }
 
 
@@ -61,18 +67,31 @@ class SettleSettings:
         Mesh periods over which the exponents of a motion that is not periodic are measured.
     n_samples : int
         Section points to keep.
+    measures : bool
+        Take the impact measures too.
+    most_work : int, optional
+        Mesh periods that a whole batch may take at most, shared equally by its motions; one that would need more than
+        its share is followed for its share and, unless captured, ends as ``"exhausted"``.
     """
 
     n_transient: int | None = None
     max_period: int = 64
     n_exponent: int = 2000
     n_samples: int = 256
+    measures: bool = False
+    most_work: int | None = None
 
     def __post_init__(self) -> None:
         if self.n_transient is not None:
             check_count("n_transient", self.n_transient, at_least=0)
+        if self.most_work is not None:
+            check_count("most_work", self.most_work)
         for name in ("max_period", "n_exponent", "n_samples"):
             check_count(name, getattr(self, name))
+
+    def share_of_work(self, n: int) -> int:
+        """Mesh periods that one of `n` motions may take."""
+        return UNLIMITED if self.most_work is None else self.most_work // max(n, 1)
 
 
 def transient_periods(osc: Oscillator) -> int:
@@ -95,6 +114,8 @@ def settle_lanes(
     settings: SettleSettings,
     *,
     chain: int = 1,
+    share: int | None = None,
+    cores: bool = True,
     progress: bool = False,
 ) -> Settled:
     """Follow each oscillator from its start until it settles, in parallel over the cores.
@@ -109,6 +130,10 @@ def settle_lanes(
     chain : int
         Lanes in a chain, a divisor of n: each but the first of its chain starts where the one before it ended. 1
         starts every lane from its own start, n makes one carried sweep.
+    share : int, optional
+        The most mesh periods of one motion, where the batch is only a part of what `settings.most_work` is for.
+    cores : bool
+        Spread the motions over the cores.
     progress : bool
         Show a progress bar on stderr.
 
@@ -118,21 +143,32 @@ def settle_lanes(
         Arrays with one row a lane. Ctrl-C keeps the rows that are done, with a warning.
     """
     n = len(oscillators)
-    out = _room(n, settings)
-    arguments = (lanes_of(oscillators, starts, settings), chain, settings.max_period, settings.n_exponent, out)
+    out = room(n, settings)
+    most = settings.share_of_work(n) if share is None else share
+    known = Known(room(0, settings), np.empty((0, COLUMNS)))
+    lanes = lanes_of(oscillators, starts, settings)
+    arguments = (lanes, chain, settings.max_period, settings.n_exponent, most, known, out)
+    with stoppable(out, progress) as done:
+        if chain == n or not cores:
+            for first in range(0, n, BLOCK):
+                last = min(first + BLOCK, n)
+                settle_rows(first, last, *arguments)
+                done(last - first)
+        else:
+            on_all_cores(settle_rows, arguments, n, BLOCK if chain == 1 else chain, done)
+    return out
+
+
+@contextmanager
+def stoppable(out: Settled, progress: bool) -> Iterator[Callable[[int], object]]:
+    """A progress bar over a batch, moved by calling what is yielded; Ctrl-C keeps the rows that are done."""
+    n = len(out.status)
     with tqdm(total=n, unit="motion", disable=not progress) as bar:
         try:
-            if chain == n:
-                for first in range(0, n, BLOCK):
-                    last = min(first + BLOCK, n)
-                    settle_rows(first, last, *arguments)
-                    bar.update(last - first)
-            else:
-                on_all_cores(settle_rows, arguments, n, BLOCK if chain == 1 else chain, bar.update)
+            yield bar.update
         except KeyboardInterrupt:
             done = int(np.sum(out.status != NOT_RUN))
-            warnings.warn(f"stopped after {done} of {n} motions; the rest has status 'not_run'", stacklevel=3)
-    return out
+            warnings.warn(f"stopped after {done} of {n} motions; the rest has status 'not_run'", stacklevel=5)
 
 
 def lanes_of(oscillators: Sequence[Oscillator], starts: NDArray[np.float64], settings: SettleSettings) -> Lanes:
@@ -149,7 +185,8 @@ def lanes_of(oscillators: Sequence[Oscillator], starts: NDArray[np.float64], set
     )
 
 
-def _room(n: int, settings: SettleSettings) -> Settled:
+def room(n: int, settings: SettleSettings) -> Settled:
+    """Rows for `n` motions, filled with what stands for "not run"."""
     return Settled(
         np.full(n, NOT_RUN),
         np.zeros(n, np.int64),
@@ -158,4 +195,7 @@ def _room(n: int, settings: SettleSettings) -> Settled:
         np.full((n, 2), np.nan),
         np.full((n, 3), np.nan),
         np.full((n, 2), np.nan),
+        np.full(n, -1),
+        np.full((n, 4), np.nan),
+        np.full((n, N_MEASURES if settings.measures else 0), np.nan),
     )

@@ -16,6 +16,7 @@ from gearpair.plotting.diagrams import (
     range_lanes,
     range_strips,
 )
+from gearpair.plotting.maps import attractor_shares, impact_map, quantity_map
 from gearpair.plotting.methods import (
     certificate,
     certified_steps,
@@ -47,6 +48,7 @@ __all__ = [
     "STYLE",
     "add_motion_legend",
     "attractor_points",
+    "attractor_shares",
     "basins",
     "bifurcation_curves",
     "bifurcation_diagram",
@@ -65,6 +67,7 @@ __all__ = [
     "finite_exponents",
     "gallery",
     "harmonics",
+    "impact_map",
     "impact_states",
     "interpolation_error",
     "load_shares",
@@ -78,6 +81,7 @@ __all__ = [
     "phase_portrait",
     "poincare_section",
     "portrait",
+    "quantity_map",
     "range_lanes",
     "range_strips",
     "rattle",

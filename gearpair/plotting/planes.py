@@ -60,11 +60,11 @@ def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -
     colours = attractor_colours(result)
     _map(ax, result, result.attractor.values + 1, [(1.0, 1.0, 1.0), *colours])
     if legend:
-        _patches(ax, dict(zip(map(str, attractor_motions(result)), colours, strict=True)))
+        name_colours(ax, dict(zip(map(str, attractor_motions(result)), colours, strict=True)))
     return ax
 
 
-def impact_states(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+def impact_states(result: xr.Dataset, ax: Axes | None = None, *, worst: bool = False, legend: bool = True) -> Axes:
     """In which impact state each start ends, the harsher the darker.
 
     Parameters
@@ -72,6 +72,8 @@ def impact_states(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
     result : xarray.Dataset
         Of `gearpair.basins`.
     ax : Axes, optional
+    worst : bool
+        The worst state of the whole way instead, from the start on.
     legend : bool
         Name the states above the axes.
 
@@ -81,11 +83,14 @@ def impact_states(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
     """
     ax = new_axes(ax, 5.0)
     states = list(IMPACT_COLOURS)
-    numbers = np.vectorize(states.index)(result.impact_state.values)
+    names = (result.worst_impact_state if worst else result.impact_state).values
+    numbers = np.zeros(names.shape, int)
+    for i, state in enumerate(states):
+        numbers[names == state] = i
     _map(ax, result, numbers, [to_rgb(colour) for colour in IMPACT_COLOURS.values()])
     if legend:
         present = [state for i, state in enumerate(states) if np.any(numbers == i)]
-        _patches(ax, {IMPACT_NAMES[state]: to_rgb(IMPACT_COLOURS[state]) for state in present})
+        name_colours(ax, {IMPACT_NAMES[state]: to_rgb(IMPACT_COLOURS[state]) for state in present})
     return ax
 
 
@@ -97,11 +102,12 @@ def _map(ax: Axes, result: xr.Dataset, numbers: np.ndarray, colours: Sequence[tu
     ax.set(xlabel="initial displacement $X_0$", ylabel="initial velocity $X_0'$")
 
 
-def _patches(ax: Axes, colours: Mapping[str, tuple[float, float, float]]) -> None:
+def name_colours(ax: Axes, colours: Mapping[str, tuple[float, float, float]], columns: int = 1) -> None:
+    """A legend of coloured patches above the axes."""
     handles = [
         Patch(facecolor=colour, edgecolor="#999999", linewidth=0.5, label=name) for name, colour in colours.items()
     ]
-    ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=1, borderaxespad=0.3)
+    ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, borderaxespad=0.3)
 
 
 def attractor_points(states: Sequence[SteadyState], ax: Axes) -> Axes:

@@ -1,0 +1,158 @@
+"""Maps over two parameters by impact and by measure, and the shares of all attractors along one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm, Normalize, to_rgb
+
+from gearpair.motion.names import IMPACT_NAMES, Motion
+from gearpair.plotting.planes import IMPACT_COLOURS, name_colours
+from gearpair.plotting.style import LABELS, motion_colour, new_axes
+
+QUANTITIES = {
+    "load_factor": "dynamic load factor",
+    "drive_velocity": "largest approach speed, drive side",
+    "coast_velocity": "largest approach speed, coast side",
+    "x_rms": "rms of $X$ about its mean",
+    "peak_to_peak": "peak-to-peak value of $X$",
+    "exponent": r"largest exponent $\lambda_1$",
+    "settling_time": "settling time (mesh periods)",
+    "largest_displacement": r"largest $|X|$",
+}
+
+
+def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """The impact state at each point of a grid of two parameters, the harsher the darker.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        Of `gearpair.parameter_map` with two axes, evenly spaced: the first is drawn upwards, the second to the right.
+    ax : Axes, optional
+    legend : bool
+        Name the states above the axes.
+
+    Returns
+    -------
+    Axes
+        With one image whose pixels are the grid's points.
+    """
+    states = result.impact_state.values
+    present = [state for state in IMPACT_COLOURS if np.any(states == state)]
+    colours = {state: to_rgb(IMPACT_COLOURS[state]) for state in present}
+    pixels = np.zeros((*states.shape, 3))
+    for state, colour in colours.items():
+        pixels[states == state] = colour
+    ax = _image(result, pixels, ax)
+    if legend:
+        name_colours(ax, {IMPACT_NAMES[state]: colour for state, colour in colours.items()}, columns=len(colours))
+    return ax
+
+
+def quantity_map(
+    result: xr.Dataset,
+    quantity: str,
+    ax: Axes | None = None,
+    *,
+    largest: float | None = None,
+    logarithmic: bool = False,
+) -> Axes:
+    """A quantity of the motion at each point of a grid of two parameters: dark where it is small.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        Of `gearpair.parameter_map` with two axes (or of `gearpair.basins`), evenly spaced.
+    quantity : str
+        One of its variables.
+    ax : Axes, optional
+    largest : float, optional
+        Where the colours end; the largest value when not given.
+    logarithmic : bool
+        Spread the colours over the logarithm.
+
+    Returns
+    -------
+    Axes
+        With a colour bar beside it.
+    """
+    values = result[quantity].values
+    top = float(np.nanmax(values)) if largest is None else largest
+    low = float(np.nanmin(values[values > 0.0])) if logarithmic else float(np.nanmin(values))
+    ax = _image(result, values, ax, norm=(LogNorm if logarithmic else Normalize)(low, top), cmap="cividis")
+    beyond = "max" if np.nanmax(values) > top else "neither"
+    ax.figure.colorbar(ax.images[0], ax=ax, label=QUANTITIES.get(quantity, quantity), pad=0.01, extend=beyond)
+    return ax
+
+
+def _image(result: xr.Dataset, pixels: np.ndarray, ax: Axes | None, **colours: Any) -> Axes:
+    dims = [str(dim) for dim in result.status.dims]
+    if len(dims) != 2:
+        raise ValueError(f"result must be a map over two parameters, got {len(dims)}: {', '.join(dims)}")
+    ax = new_axes(ax, 4.6)
+    vertical, horizontal = dims
+    (left, right), (low, high) = (_ends(result[name].values) for name in (horizontal, vertical))
+    ax.imshow(
+        pixels, origin="lower", extent=(left, right, low, high), aspect="auto", interpolation="nearest", **colours
+    )  # fmt: skip
+    starts = {"x": "initial displacement $X_0$", "v": "initial velocity $X_0'$"}
+    names = LABELS | starts if dims == ["v", "x"] else LABELS
+    ax.set(xlabel=names[horizontal], ylabel=names[vertical])
+    return ax
+
+
+def _ends(values: np.ndarray) -> tuple[float, float]:
+    """Half a step beyond the first and the last of evenly spaced values."""
+    half = 0.5 * (values[-1] - values[0]) / max(len(values) - 1, 1)
+    return values[0] - half, values[-1] + half
+
+
+def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """The shares of all attractors along a parameter, stacked, with a line at each tipping point.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        Of `gearpair.motion.continue_attractors`.
+    ax : Axes, optional
+    legend : bool
+        Name the kinds of motion above the axes.
+
+    Returns
+    -------
+    Axes
+        With one filled step for each attractor, in the colour of the motion that it mostly is, and a dotted line where
+        one has tipped to another.
+    """
+    ax = new_axes(ax, 3.6)
+    parameter = str(result.share.dims[0])
+    values = result[parameter].values
+    below = np.zeros(len(values))
+    seen: dict[str, str] = {}
+    for number in range(result.sizes["attractor"]):
+        own = result.isel(attractor=number)
+        share = np.nan_to_num(own.share.values)
+        kinds = [
+            Motion(str(status), int(period) or None)
+            for status, period in zip(own.attractor_status.values, own.attractor_period.values, strict=True)
+            if status
+        ]
+        kind = max(set(kinds), key=lambda motion: (kinds.count(motion), str(motion)))
+        ax.fill_between(
+            values, below, below + share, step="mid", facecolor=motion_colour(kind), edgecolor="white", linewidth=0.4,
+            label=str(kind),
+        )  # fmt: skip
+        seen.setdefault(str(kind), motion_colour(kind))
+        below = below + share
+    for i in np.flatnonzero(np.any(result.tips_to.values != -1, axis=1)):
+        between = 0.5 * (values[i - 1] + values[i])
+        ax.axvline(between, color="white", linewidth=2.2)
+        ax.axvline(between, color="black", linewidth=0.8, linestyle=(0, (1, 1.6)))
+    ax.set(xlabel=LABELS[parameter], ylabel="share of the starts", xlim=(values.min(), values.max()), ylim=(0.0, 1.0))
+    if legend:
+        name_colours(ax, {name: to_rgb(colour) for name, colour in seen.items()}, columns=min(len(seen), 7))
+    return ax
