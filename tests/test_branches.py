@@ -198,6 +198,7 @@ def test_bifurcations_are_where_their_multipliers_say(printed_branch):
     assert {"fold", "flip", "grazing"} == set(kinds)
     for b in printed_branch.bifurcations:
         orbit = gp.periodic_orbit(b.oscillator, b.x, b.v, b.period)
+        assert (b.x, b.v) == pytest.approx(tuple(orbit.points[0]), abs=1e-6)  # the section point of smallest X
         if b.kind == "grazing":
             motion = gp.trajectory(b.oscillator, b.x, b.v, b.period, samples_per_period=2000)
             turning = motion.x[1:-1][np.diff(np.sign(np.diff(motion.x))) != 0]

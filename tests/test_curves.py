@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import gearpair as gp
+from gearpair.bifurcations import End
+from gearpair.bifurcations._walk import walk_both_ways
 from tests.always_in_contact import edge, edges
 
 CONTACT = gp.Oscillator(mean_force=4.0, error_amplitude=0.02, mesh_frequency=2.6)  # never leaves the flank
@@ -122,16 +124,36 @@ def test_steps_are_no_longer_than_asked(tongue_flip):
     assert 0.045 < lengths.max() < 0.055
 
 
-def test_the_corner_of_the_bounds_is_not_passed(tongue_flip):
-    """Where one step passes two bounds the curve ends on the first: every point lies within both."""
-    along = gp.continue_bifurcation(tongue_flip, {"mesh_frequency": (1.5, 2.6), "damping_ratio": (0.001, 0.3)})
-    onwards = along.values[np.abs(along.values[:, 1] - 0.02) < 0.01]
-    for high in (0.0229, 0.0230, 0.0231):
-        upper = np.interp(high - 1e-4, onwards[:, 1], onwards[:, 0])
-        bounds = {"damping_ratio": (0.001, high), "mesh_frequency": (1.5, float(max(upper, tongue_flip.value + 1e-6)))}
-        curve = gp.continue_bifurcation(tongue_flip, bounds, largest_step=0.5)
-        for k, (lower, upper) in enumerate(bounds.values()):
-            assert lower - 1e-12 <= curve.values[:, k].min() and curve.values[:, k].max() <= upper + 1e-12
+class Line:
+    """X = X' = 0 and second parameter = twice the first: a straight line to walk along."""
+
+    scales = np.ones(2)
+
+    def equations(self, u):
+        return np.array([u[0], u[1], u[3] - 2.0 * u[2]]), np.array([[1.0, 0, 0, 0], [0, 1, 0, 0], [0, 0, -2, 1]])
+
+    def describe(self, u):
+        return None
+
+    def values(self, u):
+        return u[2:]
+
+    def ending(self, last, step):
+        return None
+
+
+@pytest.mark.parametrize(
+    ("bounds", "low", "high"),
+    [
+        (((-1.0, 1.0), (-9.0, 1.0)), (-1.0, -2.0), (0.5, 1.0)),  # the second parameter's upper bound comes first
+        (((-1.0, 1.0), (-1.5, 9.0)), (-0.75, -1.5), (1.0, 2.0)),  # its lower one, the other way
+    ],
+)
+def test_of_two_bounds_in_one_step_the_first_ends_the_walk(bounds, low, high):
+    """A step of length 5 passes both; the walk ends where the line leaves the rectangle."""
+    steps, ends = walk_both_ways(Line(), np.zeros(4), bounds, first=5.0, smallest=1e-6, largest=5.0, max_steps=10)
+    assert ends == (End.BOUND, End.BOUND) and len(steps) == 3
+    assert np.allclose([steps[0].u[2:], steps[-1].u[2:]], [low, high], rtol=0, atol=1e-12)
 
 
 def test_a_curve_prints_what_it_is(tongue_flip):
