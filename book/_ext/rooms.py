@@ -16,8 +16,8 @@ from docutils.statemachine import StringList
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-MODULES = ("oscillator", "stiffness", "drive", "tables")
-FOLDERS = ("teeth", "motion", "bifurcations", "methods", "article", "plotting")
+MODULES = ("oscillator", "stiffness", "drive", "tables", "parameters")
+FOLDERS = ("teeth", "motion", "bifurcations", "methods", "design", "article", "plotting", "teaching")
 
 
 def public_names(module: ModuleType) -> list[str]:

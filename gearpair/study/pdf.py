@@ -17,7 +17,7 @@ from gearpair.study.book import Book
 from gearpair.study.browser import chromium, serve
 from gearpair.study.errors import StudyError
 
-LEFT_OUT = "a.headerlink, script, style, button, .gp-explorer, .toggle-hidden, nav"
+LEFT_OUT = "a.headerlink, script, style, button, .gp-explorer, .gp-pairs, .toggle-hidden, nav"
 MARGIN = {"top": "18mm", "bottom": "18mm", "left": "18mm", "right": "18mm"}
 FOOTER = '<div style="font-size: 8px; width: 100%; text-align: center"><span class="pageNumber"></span></div>'
 STYLE = """
