@@ -7,7 +7,7 @@ import pytest
 from tests.teach.answers import FULL, NAMES, WRITTEN, WRONG
 from tests.teach.conftest import identified
 
-pytestmark = [pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.xdist_group(n)) for n in NAMES])]
+pytestmark = pytest.mark.parametrize("name", NAMES)
 
 
 @pytest.fixture

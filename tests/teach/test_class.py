@@ -2,8 +2,6 @@
 
 import time
 
-import pytest
-
 from gearpair import teaching
 from tests.teach.answers import FULL
 
@@ -11,7 +9,6 @@ NAME = "stiffness"
 CLASS = [f"student{number:02}" for number in range(40)]
 
 
-@pytest.mark.xdist_group("class")
 def test_a_class_of_forty_is_graded_in_one_run(courses, record_property):
     assert len({repr(teaching.personal_drive(student)) for student in CLASS}) == len(CLASS)
     course = courses("class", NAME)
@@ -23,7 +20,6 @@ def test_a_class_of_forty_is_graded_in_one_run(courses, record_property):
     assert course.marks(NAME) == dict.fromkeys(CLASS, FULL)
 
 
-@pytest.mark.xdist_group("validate")
 def test_students_can_validate_before_they_submit(courses):
     """`nbgrader validate` exits 0 whatever it finds, so its text is read."""
     course = courses("validate", NAME)

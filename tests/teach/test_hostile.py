@@ -82,20 +82,17 @@ def moves_the_tests(notebook):
     notebook.cells = tests + [cell for cell in notebook.cells if cell not in tests]
 
 
-@pytest.mark.xdist_group("hostile")
 @pytest.mark.parametrize("student", ["edits_a_test", "raises_the_points", "deletes_a_test"])
 def test_a_changed_test_is_put_back(tampered, student):
     assert tampered.marks(NAME)["honest"] == HONEST
     assert tampered.marks(NAME)[student] == HONEST
 
 
-@pytest.mark.xdist_group("hostile")
 @pytest.mark.parametrize("student", ["patches_the_library", "brings_a_test", "moves_the_tests"])
 def test_nothing_in_the_students_kernel_moves_the_marks(tampered, student):
     assert tampered.marks(NAME).get(student, 0.0) <= HONEST
 
 
-@pytest.mark.xdist_group("endless")
 def test_what_does_not_end_is_stopped_and_the_rest_is_graded(courses):
     course = courses("endless", NAME)
     endless = ("mesh-stiffness", "### END SOLUTION", "while True:\n    pass")
