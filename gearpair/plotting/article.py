@@ -153,5 +153,5 @@ def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = No
         ax.set_xlabel("steps a mesh period")
     for ax in (axes[0], axes[4]):
         ax.set_ylabel("drawn minus published")
-    axes[0].legend(loc="upper left", fontsize=7, handletextpad=0.1, borderaxespad=0.1)
+    axes[3].legend(loc="upper left", fontsize=7, handletextpad=0.1, borderaxespad=0.1)
     return list(axes)
