@@ -27,6 +27,7 @@ from gearpair.study.errors import StudyError
 from gearpair.study.record import circumstances, recorded
 
 REFRESH = 10.0  # seconds between two signs of life
+PATIENCE = 120  # seconds for what a finished cell printed to arrive; the 4 of nbclient fail on a busy machine
 
 
 class ThisInterpreter(AsyncKernelManager):
@@ -122,6 +123,7 @@ def execute(
                 engine_name="lively",
                 kernel_name="python3",
                 language="python",
+                iopub_timeout=PATIENCE,
                 kernel_manager_class=type("ThisInterpreter", (ThisInterpreter,), {"scratch": scratch.resolve()}),
                 progress_bar={"desc": chapter.name} if progress else False,
             )
