@@ -44,7 +44,7 @@ def tampered(courses):
         moves_the_tests,
     ):
         submit(change.__name__, change)
-    course.log = course.nbgrader("autograde", NAME)
+    course.nbgrader("autograde", NAME, fails=True)  # nbgrader refuses a cell that it did not hand out, and says so
     return course
 
 
