@@ -60,10 +60,9 @@ def fill(job: Job, path: str | Path, *, client: Client | None = None, progress: 
     """
     need_zarr()
     group = _opened(job, Path(path))
-    todo = [i for i, done in enumerate(group["done"][:].tolist()) if not done]
-    with tqdm(
-        total=len(group["done"]), initial=len(group["done"]) - len(todo), unit="block", disable=not progress
-    ) as bar:
+    finished = group["done"][:].tolist()
+    todo = [i for i, done in enumerate(finished) if not done]
+    with tqdm(total=len(finished), initial=len(finished) - len(todo), unit="block", disable=not progress) as bar:
         if client is None:
             for i in todo:
                 fill_block(job, str(path), i)
@@ -72,10 +71,8 @@ def fill(job: Job, path: str | Path, *, client: Client | None = None, progress: 
             from distributed import as_completed
 
             shared = client.scatter(job, broadcast=True, hash=False)
-            futures = client.map(
-                fill_block, [shared] * len(todo), [str(path)] * len(todo), todo, cores=False, pure=False
-            )
-            for future in as_completed(futures):
+            same = [shared] * len(todo), [str(path)] * len(todo)
+            for future in as_completed(client.map(fill_block, *same, todo, cores=False, pure=False)):
                 future.result()
                 bar.update()
     return group
@@ -121,6 +118,8 @@ def opened_dataset(path: str | Path) -> xr.Dataset:
     stored = xr.open_zarr(path, chunks=None, consolidated=False, mask_and_scale=False)
     result = stored.drop_vars("done")
     result.attrs = {"oscillator": result.attrs["oscillator"]}
+    if "attractor_number" in result.sizes:
+        result = result.assign_coords(attractor_number=np.arange(result.sizes["attractor_number"]))
     return result
 
 
@@ -151,7 +150,7 @@ def engine() -> str:
     folder = Path(__file__).parents[1]
     sources = sorted(path for room in ("_flow", "motion") for path in (folder / room).glob("*.py"))
     digest = sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()[:16]
-    return f"gearpair {version('gearpair')}, sources {digest}, numba {version('numba')}"
+    return f"sources {digest}, numba {version('numba')}"
 
 
 def fingerprint(values: NDArray[Any]) -> str:

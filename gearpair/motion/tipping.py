@@ -89,9 +89,8 @@ def continue_attractors(
     for each in oscillators:
         before = list(points)
         here = np.concatenate([starts, *(points[number][np.newaxis] for number in before)])
-        out = settle_from(
-            each, here, settings, known_attractors(each, here[np.append(seeds(n), range(n, len(here)))], settings)
-        )
+        first = np.concatenate([seeds(n), np.arange(n, len(here))])
+        out = settle_from(each, here, settings, known_attractors(each, here[first], settings))
         columns = settled_columns(out)
         found, place = found_in(columns)
         (numbers,), table = number_attractors([found])
