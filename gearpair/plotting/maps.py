@@ -125,8 +125,8 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
     Returns
     -------
     Axes
-        With one filled step for each attractor, in the colour of the motion that it mostly is, and a triangle at the top
-        where one has tipped to another.
+        With one filled step for each attractor, in the colour of the motion that it mostly is, and a triangle at the
+        top where one has tipped to another.
     """
     ax = new_axes(ax, 3.6)
     parameter = str(result.share.dims[0])
