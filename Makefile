@@ -1,16 +1,18 @@
 # Two commands do everything, each from a fresh clone with Python 3.11+ and make:
-#   make book    execute the chapters and build the site at _build/html/index.html
+#   make book    execute the chapters that changed and build the site at _build/html/index.html
 #   make test    run every test
 # Others:
 #   make bench   measure accuracy and time on this machine, beside other integrators (some minutes; installs the
 #                bench extra first, and does without where it cannot be had); BENCH_ARGS=--quick for less
+#   make stability  run the chapters on other terms (another processor, one thread, other rounding) and compare their
+#                outputs with the stored ones (half an hour); CHAPTERS="impacts method" for some of them
 #   make accept  re-execute the source notebooks and store their new outputs (review them with git diff)
 #   make lock    re-make requirements.lock from pyproject.toml
 #   make clean   remove what was generated (the environment in .venv stays)
 # Choose an interpreter with PYTHON=python3.12; pass options to pytest with PYTEST_ARGS="-k layers".
 
 .DEFAULT_GOAL := help
-.PHONY: help book test bench accept lock clean
+.PHONY: help book test bench stability accept lock clean
 .DELETE_ON_ERROR:
 
 VERSION_CHECK := import sys; sys.exit(sys.version_info < (3, 11))
@@ -18,6 +20,7 @@ PYTHON ?= $(shell for p in python3 python3.11 python3.12 python3.13 python3.14; 
 	$$p -c '$(VERSION_CHECK)' >/dev/null 2>&1 && { echo $$p; break; }; done)
 PYTEST_ARGS ?=
 BENCH_ARGS ?=
+CHAPTERS ?=
 
 VENV := .venv
 READY := $(VENV)/.ready
@@ -44,6 +47,9 @@ $(BENCH_READY): $(READY)
 		$$($(RUN) -c 'import tomllib; \
 		print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["bench"])')
 	@touch $@
+
+stability: $(READY)
+	@$(RUN) -m gearpair stability $(CHAPTERS)
 
 accept: $(READY)
 	@$(RUN) -m gearpair accept
@@ -73,3 +79,63 @@ lock:
 clean:
 	rm -rf _build book/chapters .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 	find gearpair tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# The gates of the site, in a real browser, and the whole book as one PDF; both bring their own packages and need a
+# Chromium on the PATH (or CHROMIUM=/path/to/it), the gates also Java.
+#   make check-site   build the book, then open every page and check it; SITE_ARGS="-k links" for some of the gates
+#   make pdf          build the book, then print it to _build/gearpair.pdf
+.PHONY: check-site pdf
+SITE_ARGS ?=
+SITE_READY := $(VENV)/.ready-site
+
+check-site: $(SITE_READY) book
+	@GEARPAIR_SITE=_build/html $(RUN) -m pytest tests/site -p no:nbval --override-ini addopts= $(SITE_ARGS)
+	@$(RUN) -m codespell_lib
+
+pdf: $(SITE_READY) book
+	@$(RUN) -m gearpair.study.pdf
+
+$(SITE_READY): $(READY)
+	@echo "Adding the site extra to $(VENV)"
+	@$(RUN) -m pip install --quiet --disable-pip-version-check --constraint requirements.lock \
+		$$($(RUN) -c 'import tomllib; \
+		print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["site"])')
+	@touch $@
+
+#   make check-wheel  build the wheel, install it alone in an empty environment, run the README's example there
+.PHONY: check-wheel
+check-wheel: $(READY)
+	@rm -rf dist $(VENV)-wheel
+	@$(RUN) -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation --wheel-dir dist .
+	@$(PYTHON) -m venv $(VENV)-wheel
+	@$(VENV)-wheel/bin/python -m pip install --quiet --disable-pip-version-check dist/*.whl
+	@$(RUN) tests/check_wheel.py $(VENV)-wheel/bin/python
+	@echo "The wheel works by itself: $$(ls dist)"
+
+# The course (notebooks/assignments) has an environment of its own, .venv-teach, since nbgrader brings a notebook server:
+#   make teach       grade the whole course headless: reference solutions, mistakes, hostile submissions, a class of forty
+#   make lock-teach  re-make requirements.lock and, in step with it, requirements-teach.lock
+.PHONY: teach lock-teach
+TEACH_VENV := .venv-teach
+TEACH_READY := $(TEACH_VENV)/.ready
+TEACH_ARGS ?=
+
+teach: $(TEACH_READY)
+	@$(TEACH_VENV)/bin/python -m pytest -o addopts= -p no:cacheprovider -n 2 --dist loadfile tests/teach $(TEACH_ARGS)
+
+$(TEACH_READY): requirements-teach.lock pyproject.toml
+	@$(if $(PYTHON),$(PYTHON),false) -c '$(VERSION_CHECK)' || { echo "gearpair needs Python 3.11 or newer" >&2; exit 1; }
+	@echo "Setting up $(TEACH_VENV) from requirements-teach.lock (a few minutes the first time)"
+	@$(PYTHON) -m venv $(TEACH_VENV)
+	@$(TEACH_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --requirement requirements-teach.lock
+	@$(TEACH_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation \
+		--editable .
+	@$(TEACH_VENV)/bin/python -c 'import matplotlib.font_manager'
+	@echo "Compiling the kernels (about a minute)"
+	@$(TEACH_VENV)/bin/python -m gearpair.study.warm_up
+	@touch $@
+
+lock-teach: lock
+	$(VENV)-lock/bin/uv pip compile pyproject.toml --extra teach --constraint requirements.lock --universal \
+		--python-version 3.11 --quiet --no-emit-index-url --no-emit-find-links --annotation-style line \
+		--custom-compile-command "make lock-teach" --output-file requirements-teach.lock

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import resource
 from statistics import median
-from time import perf_counter
+from time import perf_counter, process_time
 
 from numba import config
 
+import gearpair as gp
 from benchmarks.jobs import JOBS, Measured, python, run_apart
 from gearpair.tables import Table
 
 VALUES = (100, 400, 1000)
 SIDES = (50, 100, 200)
+SPEEDS = (40, 160)
+# Too small to change the motion, so that what they cost is what the harmonics themselves cost.
+FIVE_HARMONICS = tuple((order, 1e-9, 0.3) for order in (2, 3, 4, 5))
+FREQUENCIES = (0.7, 0.95, 1.6, 2.2)
 SPREAD = {"restarted": ("diagram from one start, 200 values", 200), "grid": ("50 x 50 starts", 50)}
 STARTS = {
     "Python alone": "",
@@ -24,9 +29,10 @@ STARTS = {
 
 def growth() -> Table:
     """Time and memory against size, on all cores."""
-    diagrams, grids = run_apart("diagram", VALUES), run_apart("grid", SIDES)
+    diagrams, grids, charts = run_apart("diagram", VALUES), run_apart("grid", SIDES), run_apart("chart", SPEEDS)
     rows = [_cost(m, f"diagram up and down, {m.size} values", 2 * m.size, diagrams[0]) for m in diagrams[1:]]
     rows += [_cost(m, f"{m.size} x {m.size} starts", m.size**2, grids[0]) for m in grids[1:]]
+    rows += [_cost(m, f"speed chart, {m.size} speeds", (2 + 12) * m.size, charts[0]) for m in charts[1:]]
     return Table(("job", "seconds", "processor s", "us / motion", "peak MiB", "MiB for it"), rows)
 
 
@@ -34,6 +40,25 @@ def _cost(m: Measured, name: str, motions: int, before: Measured) -> tuple[str, 
     per_motion = f"{m.processor_seconds / motions * 1e6:.0f}"
     memory = f"{m.peak_mib:.0f}", f"{m.peak_mib - before.peak_mib:.0f}"
     return name, f"{m.seconds:.2f}", f"{m.processor_seconds:.2f}", per_motion, *memory
+
+
+def harmonics(rounds: int = 9, periods: int = 20_000) -> Table:
+    """A mesh period with five harmonics of the transmission error against one, in turns, at the same motion."""
+    rows = []
+    for omega in FREQUENCIES:
+        one = gp.Oscillator(mesh_frequency=omega)
+        both = one, one.replace(harmonics=FIVE_HARMONICS)
+        x, v = gp.stroboscopic_map(one, 1.0, 0.0, 500)
+        ratios = []
+        for _ in range(rounds):
+            spent = []
+            for osc in both:
+                begin = process_time()
+                gp.stroboscopic_map(osc, x, v, periods)
+                spent.append(process_time() - begin)
+            ratios.append(spent[1] / spent[0])
+        rows.append((f"{omega:.2f}", f"{median(ratios):.2f}"))
+    return Table(("Omega_h", "five harmonics / one"), rows)
 
 
 def cores(rounds: int = 5) -> Table:

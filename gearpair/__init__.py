@@ -1,13 +1,13 @@
 """Nonlinear dynamics of a spur gear pair with backlash and time-varying mesh stiffness.
 
 Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`. What is not here is in the folder that
-its subject names: `teeth`, `motion`, `bifurcations`, `methods`, `article`, `plotting`, and the tables in `tables`.
+its subject names: `teeth`, `motion`, `bifurcations`, `design`, `methods`, `article`, `plotting`; tables in `tables`.
 """
 
 import importlib
 from typing import Any
 
-from gearpair import article, bifurcations, methods, motion, tables, teeth
+from gearpair import article, bifurcations, design, methods, motion, tables, teeth
 from gearpair.article import published
 from gearpair.bifurcations import (
     Bifurcation,
@@ -58,6 +58,7 @@ __all__ = [
     "bifurcations",
     "continue_bifurcation",
     "continue_orbit",
+    "design",
     "find_branches",
     "find_orbits",
     "impact_state",

@@ -4,25 +4,45 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_number
+from gearpair._checks import check_count, check_number
 from gearpair._flow.cells import Cells, Parameters, build_cells
 from gearpair.stiffness import StiffnessWave
 
+LARGEST_ORDER = 200  # of a harmonic: the cells of a period are as many times ten
 LARGEST_DAMPING_RATIO = 100.0
 LARGEST_MESH_FREQUENCY = 1e6
 MOST_TURNS = 1e6  # of the fastest rate in a mesh period, in radians: the tables of a period are as long
+
+
+class Harmonic(NamedTuple):
+    """A harmonic of the transmission error, ``amplitude * sin(order * Omega tau + phase)``.
+
+    Parameters
+    ----------
+    order : int
+        Multiple of the mesh frequency.
+    amplitude : float
+        Over half the backlash in an `Oscillator`, in micrometres in a `GearDrive`.
+    phase : float
+        At the start of a mesh period, in radians.
+    """
+
+    order: int
+    amplitude: float
+    phase: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class Oscillator:
     """A spur gear pair with backlash, ``X'' + 2 zeta X' + k(tau) f(X) = F_m + F_ah Omega^2 sin(Omega tau + phi)``.
 
-    ``f`` is zero on [-1, 1] and has slope one outside. All quantities are dimensionless.
+    ``f`` is zero on [-1, 1] and has slope one outside. All quantities are dimensionless. Harmonics of the transmission
+    error add ``F_n (n Omega)^2 sin(n Omega tau + phi_n)`` each.
 
     Parameters
     ----------
@@ -39,6 +59,9 @@ class Oscillator:
         million times the fastest time scale of contact.
     stiffness : StiffnessWave
         k(tau) over the mesh period; the article's printed rectangle by default.
+    harmonics : sequence of (order, amplitude, phase)
+        What the transmission error has besides its first harmonic: orders n from 2 to 200, amplitudes
+        F_n = e_n / b_h of at least 0, phases in radians, as `Harmonic`.
 
     Raises
     ------
@@ -55,6 +78,8 @@ class Oscillator:
     >>> osc = Oscillator(mesh_frequency=1.0)
     >>> osc.replace(damping_ratio=0.05, contact_ratio=1.7).stiffness.edges
     (0.0, 0.7)
+    >>> Oscillator(harmonics=[(2, 0.05, 0.0)]).harmonics
+    (Harmonic(order=2, amplitude=0.05, phase=0.0),)
     """
 
     mean_force: float = 0.1
@@ -63,6 +88,7 @@ class Oscillator:
     damping_ratio: float = 0.02
     mesh_frequency: float = 0.7
     stiffness: StiffnessWave = field(default_factory=StiffnessWave.rectangular)
+    harmonics: tuple[Harmonic, ...] = ()
 
     def __post_init__(self) -> None:
         checked = {
@@ -78,6 +104,7 @@ class Oscillator:
             object.__setattr__(self, name, value)
         if not isinstance(self.stiffness, StiffnessWave):
             raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
+        object.__setattr__(self, "harmonics", check_harmonics("harmonics", self.harmonics))
         check_number("mesh_frequency", self.mesh_frequency, at_most=LARGEST_MESH_FREQUENCY)
         rate = max(2.0 * self.damping_ratio, np.sqrt(max(self.stiffness.levels)))
         slowest = 2.0 * np.pi * rate / MOST_TURNS
@@ -121,7 +148,7 @@ class Oscillator:
             For an unknown name, a value out of range, or a wave that is not rectangular.
         """
         for name in changes:
-            if name != "stiffness":
+            if name not in WHOLE:
                 self._check_name(name)
         wave = {name: changes.pop(name) for name in WAVE_SCALARS if name in changes}
         if wave:
@@ -142,9 +169,21 @@ class Oscillator:
         raise ValueError(f"unknown parameter {name!r}; the parameters are {', '.join(self.parameters)}")
 
     def force(self, tau: ArrayLike) -> NDArray[np.float64]:
-        """The right-hand side ``F_m + F_ah Omega^2 sin(Omega tau + phi)`` at times `tau` (any shape)."""
+        """The right-hand side ``F_m + F_ah Omega^2 sin(Omega tau + phi)``, with harmonics, at `tau` (any shape)."""
         angle = self.mesh_frequency * np.asarray(tau, dtype=float) + self.error_phase
-        return self.mean_force + self.error_amplitude * self.mesh_frequency**2 * np.sin(angle)
+        total = self.mean_force + self.error_amplitude * self.mesh_frequency**2 * np.sin(angle)
+        for order, amplitude, phase in self.harmonics:
+            rate = order * self.mesh_frequency
+            total = total + amplitude * rate**2 * np.sin(rate * np.asarray(tau, dtype=float) + phase)
+        return total
+
+    def error(self, tau: ArrayLike) -> NDArray[np.float64]:
+        """The transmission error over half the backlash, ``F_ah sin(Omega tau + phi)`` with harmonics, at `tau`."""
+        angle = self.mesh_frequency * np.asarray(tau, dtype=float)
+        total = self.error_amplitude * np.sin(angle + self.error_phase)
+        for order, amplitude, phase in self.harmonics:
+            total = total + amplitude * np.sin(order * angle + phase)
+        return total
 
     @cached_property
     def _flow_parameters(self) -> Parameters:
@@ -157,6 +196,7 @@ class Oscillator:
             self.mesh_frequency,
             np.array([*self.stiffness.edges, 1.0]),
             np.array(self.stiffness.levels),
+            np.array(self.harmonics, dtype=float).reshape(-1, 3),
         )
 
     @cached_property
@@ -165,5 +205,20 @@ class Oscillator:
         return build_cells(self._flow_parameters)
 
 
-SCALARS = tuple(f.name for f in fields(Oscillator) if f.name != "stiffness")
+def check_harmonics(name: str, harmonics: Any, lowest: int = 2) -> tuple[Harmonic, ...]:
+    """`harmonics` of orders from `lowest` as named tuples, or a ValueError that says which is wrong."""
+    checked: list[Harmonic] = []
+    for i, each in enumerate(harmonics):
+        if np.shape(each) not in ((2,), (3,)):
+            raise ValueError(f"{name}[{i}] must be (order, amplitude, phase), got {each!r}")
+        given = Harmonic(*each)
+        order = check_count(f"{name}[{i}] order", given.order, at_least=lowest)
+        check_number(f"{name}[{i}] order", order, at_most=LARGEST_ORDER)
+        amplitude = check_number(f"{name}[{i}] amplitude", given.amplitude, at_least=0.0)
+        checked.append(Harmonic(order, amplitude, check_number(f"{name}[{i}] phase", given.phase)))
+    return tuple(checked)
+
+
+WHOLE = ("stiffness", "harmonics")  # the fields that are no scalars
+SCALARS = tuple(f.name for f in fields(Oscillator) if f.name not in WHOLE)
 WAVE_SCALARS = ("contact_ratio", "a", "b")

@@ -16,6 +16,7 @@ from gearpair._flow.closed_form import DEGREE, REACH, TERMS
 from gearpair.bifurcations.branches import Branch
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.bifurcations.structure import coexistence
+from gearpair.design import SpeedRange
 from gearpair.methods.certificates import Segment
 from gearpair.methods.precision import numerical_chaos
 from gearpair.motion.datasets import symbol
@@ -270,6 +271,41 @@ def coarse_share(where: ArrayLike) -> str:
     if share == 1.0:
         return "all"
     return "under 10%" if share < 0.1 else "over 90%" if share > 0.9 else f"{round(share, 1):.0%}"
+
+
+def speed_range_table(ranges: Iterable[SpeedRange]) -> Table:
+    """The speeds to avoid, one row a range: why, and the worst of it.
+
+    Parameters
+    ----------
+    ranges : iterable of SpeedRange
+        Of `gearpair.design.speeds_to_avoid`.
+
+    Returns
+    -------
+    Table
+
+    Examples
+    --------
+    >>> from gearpair.design import SpeedRange
+    >>> speed_range_table([SpeedRange(6836.7, 8139.1, "the teeth part", ("period 1",), 3.779, 0.571, 568.0)])
+    rpm        why             motions   dynamic factor  time apart  impacts at (mm/s)
+    ----------------------------------------------------------------------------------
+    6837–8139  the teeth part  period 1             3.8         57%                568
+    """
+    rows = [
+        [
+            f"{run.lower:.0f}–{run.upper:.0f}",
+            run.why,
+            ", ".join(run.motions) if len(run.motions) < 4 else f"{len(run.motions)} kinds",
+            f"{run.dynamic_factor:.1f}",
+            f"{run.time_apart:.0%}",
+            f"{run.impact_velocity:.3g}",
+        ]
+        for run in ranges
+    ]
+    columns = ["rpm", "why", "motions", "dynamic factor", "time apart", "impacts at (mm/s)"]
+    return Table(columns, rows or [["none", "the teeth stay in contact", *["–"] * 4]])
 
 
 def certificate_table(pieces: Iterable[Segment]) -> Table:

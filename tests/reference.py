@@ -25,7 +25,13 @@ NOISE = mpf(10) ** -36  # what a position can be off by, mostly from dividing by
 def kernel_parameters(osc: gp.Oscillator) -> Parameters:
     """What the kernels take, built by hand."""
     scalars = (osc.mean_force, osc.error_amplitude, osc.error_phase, osc.damping_ratio, osc.mesh_frequency)
-    return Parameters(*scalars, np.array([*osc.stiffness.edges, 1.0]), np.array(osc.stiffness.levels))
+    harmonics = np.array(osc.harmonics, dtype=float).reshape(-1, 3)
+    return Parameters(*scalars, np.array([*osc.stiffness.edges, 1.0]), np.array(osc.stiffness.levels), harmonics)
+
+
+def every_harmonic(osc: gp.Oscillator) -> list[tuple[int, float, float]]:
+    """(order, amplitude, phase) of the whole transmission error."""
+    return [(1, osc.error_amplitude, osc.error_phase), *osc.harmonics]
 
 
 def right_hand_side(osc: gp.Oscillator):
@@ -34,9 +40,9 @@ def right_hand_side(osc: gp.Oscillator):
     def slope(tau, y):
         x, v = y
         gap = x - 1.0 if x > 1.0 else x + 1.0 if x < -1.0 else 0.0
-        force = osc.mean_force + osc.error_amplitude * osc.mesh_frequency**2 * np.sin(
-            osc.mesh_frequency * tau + osc.error_phase
-        )
+        force = osc.mean_force
+        for n, amplitude, phase in every_harmonic(osc):
+            force += amplitude * (n * osc.mesh_frequency) ** 2 * np.sin(n * osc.mesh_frequency * tau + phase)
         return v, force - 2.0 * osc.damping_ratio * v - float(osc.stiffness(tau / osc.period)) * gap
 
     return slope
@@ -51,7 +57,8 @@ def dop853_period(osc: gp.Oscillator, x: float, v: float) -> tuple[float, float]
         tau, end = edges[i] * osc.period, edges[i + 1] * osc.period
         while tau < end:
             force = osc.force(tau)
-            rates = (v, force - 2.0 * zeta * v, osc.error_amplitude * omega**3 * np.cos(omega * tau + osc.error_phase))
+            jerk = sum(a * n**3 * omega**3 * np.cos(n * omega * tau + phase) for n, a, phase in every_harmonic(osc))
+            rates = (v, force - 2.0 * zeta * v, jerk)
             way = next((rate for rate in rates if rate != 0.0), 0.0)
             region = 1 if x > 1.0 or (x == 1.0 and way > 0.0) else -1 if x < -1.0 or (x == -1.0 and way < 0.0) else 0
             stiffness = level * abs(region)
@@ -76,7 +83,7 @@ def dop853_period(osc: gp.Oscillator, x: float, v: float) -> tuple[float, float]
                 events=leave,
                 rtol=1e-13,
                 atol=1e-14,
-                max_step=osc.period / 20,
+                max_step=osc.period / 20 / max(n for n, _, _ in every_harmonic(osc)),
             )
             tau, (x, v) = run.t[-1], run.y[:, -1]
             if run.status == 1:
@@ -85,23 +92,31 @@ def dop853_period(osc: gp.Oscillator, x: float, v: float) -> tuple[float, float]
 
 
 class Piece:
-    """One linear piece in closed form: a constant, a forced and two free terms, all complex exponentials."""
+    """One linear piece in closed form: a constant, forced and two free terms, all complex exponentials."""
 
     def __init__(self, osc, level, region, theta, x, v):
         zeta, omega = mpf(osc.damping_ratio), mpf(osc.mesh_frequency)
-        force, amplitude = mpf(osc.mean_force), mpf(osc.error_amplitude) * omega**2
+        force, angle = mpf(osc.mean_force), theta - mpf(osc.error_phase)
         kappa = (mpf(level) if region else mpf(0)) + NUDGE
         root = mp.sqrt(mpc(zeta * zeta - kappa))
-        forced = amplitude * mp.expj(theta) / mpc(kappa - omega**2, 2 * zeta * omega)
-        self.rates = (root - zeta, -root - zeta, mpc(0, omega))
+        forced = [
+            mpf(size)
+            * (n * omega) ** 2
+            * mp.expj(n * angle + mpf(phase))
+            / mpc(kappa - (n * omega) ** 2, 2 * zeta * n * omega)
+            for n, size, phase in every_harmonic(osc)
+        ]
+        self.rates = (root - zeta, -root - zeta, *(mpc(0, n * omega) for n, _, _ in every_harmonic(osc)))
         self.rest = region + force / kappa
         # Free terms from the start: a + b = y, r a + q b = u.
-        y, u = x - self.rest - forced.imag, v - (self.rates[2] * forced).imag
+        moving = sum(rate * each for rate, each in zip(self.rates[2:], forced, strict=True))
+        y, u = x - self.rest - sum(forced).imag, v - moving.imag
         r, q = self.rates[:2]
         free = ((u - q * y) / (r - q), (r * y - u) / (r - q))
         # X is the rest plus the real part of these coefficients times the exponentials; so are its derivatives.
         self.coefficients = [
-            [c * rate**n for c, rate in zip((*free, -1j * forced), self.rates, strict=True)] for n in range(3)
+            [c * rate**n for c, rate in zip((*free, *(-1j * each for each in forced)), self.rates, strict=True)]
+            for n in range(3)
         ]
         self.x = x
 
@@ -216,7 +231,11 @@ def mpmath_period(osc: gp.Oscillator, x: float, v: float) -> Reference:
             floor = {-1: -mp.inf, 0: mpf(-1), 1: mpf(1)}[region]
             ceiling = {-1: mpf(-1), 0: mpf(1), 1: mp.inf}[region]
             piece = Piece(osc, level, region, theta, out.x, out.v)
-            rate = max(omega, mp.sqrt(mpf(level)), 2 * zeta if zeta**2 > level else 0)
+            rate = max(
+                omega * max(n for n, _, _ in every_harmonic(osc)),
+                mp.sqrt(mpf(level)),
+                2 * zeta if zeta**2 > level else 0,
+            )
             found = piece.first_exit(floor, ceiling, end - tau, 6 + int(12 * rate * (end - tau)))
             h = end - tau if found is None else found[0]
             out.x, out.v = piece.derivative(0, h), piece.derivative(1, h)
@@ -235,11 +254,12 @@ def entered(osc, x, v, theta):
     """The region that the motion enters: on a boundary its first non-zero derivative decides."""
     if abs(x) != 1:
         return int(x > 1) - int(x < -1)
-    amplitude = mpf(osc.error_amplitude) * mpf(osc.mesh_frequency) ** 2
+    angle = theta - mpf(osc.error_phase)
+    waves = [(n, mpf(a) * (n * mpf(osc.mesh_frequency)) ** 2, n * angle + mpf(p)) for n, a, p in every_harmonic(osc)]
     rates = (
         v,
-        mpf(osc.mean_force) + amplitude * mp.sin(theta) - 2 * mpf(osc.damping_ratio) * v,
-        amplitude * mp.cos(theta),
+        mpf(osc.mean_force) + sum(a * mp.sin(at) for _, a, at in waves) - 2 * mpf(osc.damping_ratio) * v,
+        sum(n * a * mp.cos(at) for n, a, at in waves),
     )
     way = next((rate for rate in rates if rate != 0), mpf(0))
     return int(x) if way * x > 0 else 0

@@ -23,7 +23,7 @@ def test_run_puts_the_value_in_place_of_the_default(small_book, tmp_path, capsys
     output = tmp_path / "out.ipynb"
     assert run(small_book, "run", "small", *words, "-o", str(output)) == 0
     assert capsys.readouterr().out == f"{output}\n"
-    printed = nbformat.read(output, as_version=4).cells[-1].outputs[0].text
+    printed = nbformat.read(output, as_version=4).cells[-2].outputs[0].text
     assert printed == "0.9355\n"  # 1 + 0.1 * 0.68 - 0.414 * 0.32 = 0.93552
 
 
@@ -31,7 +31,11 @@ def test_run_puts_the_value_in_place_of_the_default(small_book, tmp_path, capsys
     ("words", "sentence"),
     [
         (["run", "large"], "there is no chapter 'large'; there are small"),
+        (["run", "smal"], "there is no chapter 'smal'; did you mean 'small'?"),
         (["run", "small", "-p", "c", "1"], "small has no parameter 'c'; it has a"),
+        (["run", "small", "-p", "aa", "1"], "small has no parameter 'aa'; did you mean 'a'?"),
+        (["run", "small", "-f", "no.yml"], "no.yml cannot be read as YAML"),
+        (["run", "small", "--html", "-o", "out.ipynb"], "must be a page (a name that ends in .html), got 'out.ipynb'"),
         (["run", "small", "-p", "a", "much"], "a of small must be a number, got 'much'"),
         (["run", "small", "-o", "out.html"], "must be a notebook (a name that ends in .ipynb), got 'out.html'"),
         (["run", "small", "-o", "nowhere/out.ipynb"], "there is no directory"),
@@ -53,7 +57,7 @@ def test_bad_input_gets_one_sentence(small_book, tmp_path, monkeypatch, capsys, 
 def test_a_value_may_be_negative(small_book, tmp_path):
     output = tmp_path / "out.ipynb"
     assert run(small_book, "run", "small", "-p", "a", "-1e-1", "-o", str(output)) == 0
-    printed = nbformat.read(output, as_version=4).cells[-1].outputs[0].text
+    printed = nbformat.read(output, as_version=4).cells[-2].outputs[0].text
     assert printed == "0.7995\n"  # 1 - 0.1 * 0.68 - 0.414 * 0.32 = 0.79952
 
 
@@ -68,6 +72,63 @@ def test_a_value_out_of_range_stops_the_run_with_the_librarys_sentence(small_boo
     assert sorted(path.name for path in tmp_path.iterdir()) == ["checkout"]
 
 
+def test_parameters_from_a_file_go_behind_those_of_the_command_line(small_book, tmp_path):
+    output, file = tmp_path / "out.ipynb", tmp_path / "mine.yml"
+    file.write_text("a: 3\n")
+    assert run(small_book, "run", "small", "-f", str(file), "-p", "a", "1e-1", "-o", str(output)) == 0
+    assert nbformat.read(output, as_version=4).cells[-2].outputs[0].text == "0.9355\n"
+    file.write_text("- 3\n")
+    assert run(small_book, "run", "small", "-f", str(file), "-o", str(output)) == 1
+
+
+CHECKED = """from gearpair.parameters import check_parameters
+check_parameters(globals(), fastest="mesh_frequency")
+raise RuntimeError("a kernel was started")"""
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["-p", "lowest", "2"], "lowest must be below highest, got lowest = 2.0 and highest = 1.7"),
+        (["-p", "fastest", "0"], "fastest: mesh_frequency must be a finite number above 0, got 0.0"),
+        (["-p", "a", "-1.5"], "a must be a finite number above -1, got -1.5"),
+        (["-f", "mine.yml"], "lowest must be below highest, got lowest = 3.0 and highest = 1.7"),
+        (
+            ["-f", "mine.yml", "-p", "lowest", "1"],
+            "code cell 2 (cell 3 of the notebook): RuntimeError: a kernel was started",
+        ),
+    ],
+)
+def test_ranges_and_relations_are_checked_before_a_kernel_starts(
+    small_book, tmp_path, monkeypatch, capsys, words, sentence
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.yml").write_text("lowest: 3")
+    names = {"a": 0.116, "lowest": 0.7, "highest": 1.7, "fastest": 2.0}
+    parameters = "\n".join(f"{name}: float = {value}  # a number" for name, value in names.items())
+    write_notebook(small_book / "notebooks" / "small.ipynb", CHECKED, parameters=parameters)
+    assert run(small_book, "run", "small", "--quiet", *words) == 1
+    assert capsys.readouterr().err.endswith(f"{sentence}\n")
+
+
+def test_what_will_take_long_is_told_before_it_starts(small_book, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    cache = small_book / "_build" / "cache"
+    cache.mkdir(parents=True)
+    made = {"gearpair": {"seconds": 30.0, "parameters": {}}}
+    parameters = "damping_ratio: float = 0.02  # zeta\nn_values: int = 11  # values"
+    write_notebook(small_book / "notebooks" / "small.ipynb", "pass", parameters=parameters)
+    words = ["run", "small", "--quiet", "-p", "damping_ratio", "0", "-p", "n_values", "22"]
+    assert run(small_book, *words) == 0
+    sentence = "small: with these parameters about 80 times the work of the chapter as it stands"
+    assert capsys.readouterr().err == f"{sentence}\n"
+    nbformat.write(nbformat.v4.new_notebook(metadata=made), cache / "small-0.ipynb")
+    assert run(small_book, *words) == 0
+    assert capsys.readouterr().err == f"{sentence}, which took 30 s here: up to 40 minutes\n"
+    assert run(small_book, *words[:3]) == 0
+    assert capsys.readouterr().err == ""
+
+
 def test_a_directory_without_a_book_is_named(tmp_path, capsys):
     assert run(tmp_path, "chapters") == 1
     assert f"no book here: {tmp_path} has no _toc.yml" in capsys.readouterr().err
@@ -80,7 +141,7 @@ def test_a_directory_without_a_book_is_named(tmp_path, capsys):
         (["paint"], "gearpair: No such command 'paint'. See gearpair --help"),
         (["run"], "gearpair: Missing argument 'CHAPTER'. See gearpair --help"),
         (["run", "small", "-p", "a"], "gearpair: Option '-p' requires 2 arguments. See gearpair --help"),
-        (["run", "small", "--quick"], "gearpair: No such option '--quick'. See gearpair --help"),
+        (["run", "small", "--zzz"], "gearpair: No such option '--zzz'. See gearpair --help"),
     ],
 )
 def test_wrong_usage_exits_with_2(words, sentence, capsys):

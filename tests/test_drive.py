@@ -71,7 +71,7 @@ def test_there_and_back():
     """with_oscillator(oscillator()) is the identity, and the other way round."""
     again = DRIVE.with_oscillator(DRIVE.oscillator())
     for f in dataclasses.fields(DRIVE):
-        if f.name != "stiffness":
+        if f.name not in ("stiffness", "error_harmonics", "mesh"):
             assert getattr(again, f.name) == pytest.approx(getattr(DRIVE, f.name), rel=1e-13)
     osc = gp.Oscillator(mesh_frequency=1.3, damping_ratio=0.05, error_phase=1.0)
     back = DRIVE.with_oscillator(osc).oscillator()

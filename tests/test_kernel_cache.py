@@ -13,7 +13,7 @@ FLOW = Path(__file__).parents[1] / "gearpair" / "_flow"
 COUNT = """
 import numpy as np
 from flow.cells import Parameters, count_cells
-p = Parameters(0.1, 0.2, 0.0, 0.02, 2 * np.pi, np.array([0.0, 1.0]), np.array([1.0]))
+p = Parameters(0.1, 0.2, 0.0, 0.02, 2 * np.pi, np.array([0.0, 1.0]), np.array([1.0]), np.empty((0, 3)))
 print(count_cells(p, 0), sum(count_cells.stats.cache_hits.values()))
 """
 

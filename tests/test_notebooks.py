@@ -11,12 +11,17 @@ import nbformat
 import pytest
 
 from gearpair.study.book import Book
+from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
 from tests.conftest import MEAN, write_notebook
 
 ROOT = Path(__file__).parents[1]
 BOOK = Book(ROOT)
-NOTEBOOKS = sorted(path for path in (ROOT / "notebooks").rglob("*.ipynb") if ".ipynb_checkpoints" not in path.parts)
+NOTEBOOKS = sorted(
+    path
+    for path in (ROOT / "notebooks").rglob("*.ipynb")
+    if not {".ipynb_checkpoints", "assignments"} & set(path.parts)  # `make teach` has the assignments
+)
 CHAPTERS = BOOK.chapter_names()
 LONGEST_CELL = 14  # lines that are not blank; notebooks/README.md says so too
 
@@ -29,8 +34,22 @@ CHANGED = {
     "frequency_sweep": {"damping_ratio": "0.05", "n_values": "101", "reading": "swapped", "narrowest": "0.05"},
     "damping_sweep": {"mesh_frequency": "1.219", "highest": "0.2", "n_values": "51", "n_transient": "1000"},
     "method": {"mesh_frequency": "0.95", "reading": "swapped", "n_starts": "2", "n_values": "11"},
-    "reproduction": {"n_values": "31", "n_fine": "51", "n_reached": "8", "phase_step": "60"},
+    "reproduction": {
+        **{"n_values": "21", "n_fine": "51", "n_reached": "8", "phase_step": "60"},
+        **{"n_search": "51", "n_steps": "2", "n_phases": "2"},
+    },
+    "library": {"upper": "0.8", "n_values": "21"},
     "impacts": {"mean_force": "0.3", "reading": "swapped", "n_x": "13", "n_v": "9"},
+    "speed_chart": {  # another pair, from another kind of drawing
+        **{
+            "pinion_teeth": "25",
+            "gear_teeth": "71",
+            "module_mm": "2",
+            "backlash": "thickness",
+            "pinion_torque_nm": "20",
+        },
+        **{"pinion_shift": "0.2", "gear_added_inertia_kg_m2": "0.01", "n_speeds": "31", "n_starts": "3"},
+    },
 }
 # A value that the library refuses, and its sentence.
 REFUSED = {
@@ -43,6 +62,12 @@ REFUSED = {
     "damping_sweep": ("mesh_frequency", "0", "mesh_frequency must be a finite number above 0, got 0.0"),
     "method": ("mesh_frequency", "0", "mesh_frequency must be a finite number above 0, got 0.0"),
     "reproduction": ("n_values", "1", "n_values must be a whole number of at least 2, got 1"),
+    "speed_chart": (
+        "pinion_teeth",
+        "12",
+        "pinion_teeth = 12 is undercut: pinion_shift is 0 and must be at least 0.2981",
+    ),
+    "library": ("damping_ratio", "-1", "damping_ratio must be a finite number at least 0 and at most 100, got -1.0"),
     "impacts": ("error_amplitude", "-1", "error_amplitude must be a finite number at least 0, got -1.0"),
 }
 
@@ -121,12 +146,40 @@ def test_a_chapter_runs_with_other_parameters(name, tmp_path):
 
 
 @pytest.mark.parametrize("name", CHAPTERS)
-def test_papermill_itself_stops_at_a_value_out_of_range(name, tmp_path):
+def test_a_chapter_checks_its_parameters_before_a_kernel_starts(name):
+    """Its first cell after the parameters calls `check_parameters`, and so does the command line."""
+    chapter = BOOK.chapter(name)
+    assert chapter.stands_for is not None
     parameter, value, sentence = REFUSED[name]
-    command = [sys.executable, "-m", "papermill", str(BOOK.chapter(name).path), str(tmp_path / "out.ipynb")]
-    result = subprocess.run([*command, "-p", parameter, value], cwd=ROOT, capture_output=True, text=True)
+    with pytest.raises(StudyError) as refusal:
+        chapter.parse([(parameter, value)])
+    assert sentence in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["-p", "mesh_frequency", "0"], "mesh_frequency must be a finite number above 0, got 0"),
+        (
+            ["-p", "highest", "200"],
+            "highest: damping_ratio must be a finite number at least 0 and at most 100, got 200.0",
+        ),
+        (["-f", "mine.yml"], "n_values must be a whole number of at least 2, got 1"),
+        (
+            ["-p", "mesh_frequnecy", "0.8"],
+            "this chapter has no parameter 'mesh_frequnecy'; did you mean 'mesh_frequency'?",
+        ),
+    ],
+)
+def test_papermill_itself_stops_at_what_is_out_of_range(tmp_path, words, sentence):
+    (tmp_path / "mine.yml").write_text("n_values: 1\n")
+    command = [sys.executable, "-m", "papermill", str(BOOK.chapter("damping_sweep").path), "out.ipynb", *words]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    result = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
     assert result.returncode != 0
-    assert sentence in result.stderr
+    assert f"ValueError: {sentence}" in result.stderr
+    ran = [cell for cell in code_cells(tmp_path / "out.ipynb") if cell.execution_count]
+    assert "check_parameters" in ran[-1].source  # nothing after it was run
 
 
 def test_nbval_sees_a_broken_library(small_book, tmp_path):

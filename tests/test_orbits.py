@@ -5,9 +5,12 @@ import pytest
 
 import gearpair as gp
 from gearpair._flow.cycle import map_at
+from gearpair.motion.same_orbit import lies_on
 from gearpair.motion.stability import multipliers_of
+from tests import always_in_contact
 
 BASELINE = gp.Oscillator()
+CONTACT = gp.Oscillator(mean_force=4.0, error_amplitude=0.02, mesh_frequency=2.6)  # never leaves the flank
 SWAPPED = gp.Oscillator(stiffness=gp.StiffnessWave.rectangular(reading="swapped"))
 
 
@@ -61,22 +64,52 @@ def test_extremes_and_contacts_of_an_orbit_are_those_of_its_trajectory():
         assert orbit.contacts == (np.sum(begun == 1), np.sum(begun == -1))
 
 
-def test_always_in_contact_the_multipliers_are_floquets():
-    """With a large mean force the orbit never leaves the flank: its trace is that of the linear equation."""
-    osc = gp.Oscillator(mean_force=5.0, mesh_frequency=1.3)
-    orbit = gp.periodic_orbit(osc, 6.0, 0.0, 1)
+@pytest.mark.parametrize("frequency", [1.2, 1.5, 1.9, 2.4])
+def test_always_in_contact_the_orbit_is_that_of_the_linear_equation(frequency):
+    """With a large mean force the flank is never left: point, monodromy and multipliers in closed form, to rounding."""
+    osc = CONTACT.replace(mesh_frequency=frequency, error_phase=0.4)
+    orbit = gp.periodic_orbit(osc, 5.0, 0.0, 1)
     assert orbit.converged and orbit.impact_state == "none_drive" and orbit.contacts == (0, 0)
-    assert np.trace(orbit.monodromy) == pytest.approx(floquet_trace(osc), abs=1e-12)
+    assert orbit.points[0] == pytest.approx(always_in_contact.section_point(osc), abs=1e-12)
+    exact = always_in_contact.monodromy(osc)
+    assert np.allclose(orbit.monodromy, exact, rtol=0, atol=1e-13)
+    assert np.allclose(np.poly(orbit.multipliers), [1.0, -np.trace(exact), np.linalg.det(exact)], rtol=0, atol=1e-13)
+    assert np.abs(orbit.multipliers[0]) >= np.abs(orbit.multipliers[1])
+    motion = gp.trajectory(osc, *orbit.points[0], 1, samples_per_period=400)
+    assert orbit.x_min <= motion.x.min() + 1e-12 and motion.x.max() <= orbit.x_max + 1e-12
 
 
-def floquet_trace(osc):
-    """Trace of the always-in-contact monodromy from the textbook's matrix exponentials."""
-    from scipy.linalg import expm
+@pytest.mark.parametrize("distance", [1e-3, 1e-5, 1e-8])
+def test_an_orbit_is_stable_just_to_the_edge_of_the_tongue(distance):
+    """The parametric tongue's edges are exact: the orbit is stable outside, unstable inside, however near."""
+    lower, upper = always_in_contact.edges(CONTACT, -1.0, "mesh_frequency", 1.5, 2.6)
+    for frequency, stable in (
+        (lower - distance, True),
+        (lower + distance, False),
+        (upper - distance, False),
+        (upper + distance, True),
+    ):
+        orbit = gp.periodic_orbit(CONTACT.replace(mesh_frequency=frequency), 5.0, 0.5, 1)
+        assert orbit.converged and orbit.stable is stable
 
-    total = np.eye(2)
-    for length, level in zip(osc.stiffness.durations, osc.stiffness.levels, strict=True):
-        total = expm(np.array([[0.0, 1.0], [-level, -2 * osc.damping_ratio]]) * length * osc.period) @ total
-    return np.trace(total)
+
+def test_a_period_is_minimal_and_a_start_on_any_point_leads_to_the_same_orbit():
+    """Asked for twice the period from each of its points, Newton's method gives the orbit, lowest point first."""
+    for orbit in gp.find_orbits(BASELINE, 3, n_starts=100):
+        assert np.argmin(orbit.points[:, 0]) == 0
+        if np.abs(orbit.multipliers[0]) < 100.0:
+            for x, v in orbit.points:
+                again = gp.periodic_orbit(BASELINE, x, v, 2 * orbit.period)
+                assert again.period == orbit.period
+                assert np.allclose(again.points, orbit.points, rtol=0, atol=1e-9)
+
+
+def test_orbits_are_one_where_a_section_point_is():
+    """A millionth decides, whichever point of the orbit it is."""
+    points = np.array([[0.1, 0.2], [0.5, -0.3]])
+    assert lies_on([0.5 + 0.9e-6, -0.3 - 0.9e-6], points) and lies_on([0.1, 0.2], points)
+    assert not lies_on([0.5 + 1.1e-6, -0.3], points) and not lies_on([0.5, -0.3 - 1.1e-6], points)
+    assert not lies_on([0.1, -0.3], points)
 
 
 def test_multipliers_of_known_matrices():
@@ -95,7 +128,7 @@ def test_a_search_that_fails_says_so_and_describes_no_orbit():
     orbit = gp.periodic_orbit(BASELINE.replace(mesh_frequency=1.219), 300.0, 100.0, 7)
     assert not orbit.converged and orbit.status == "diverged" and "find_orbits" in orbit.status.remedy
     described = (orbit.stable, orbit.impact_state, orbit.multipliers, orbit.monodromy, orbit.x_min, orbit.x_max)
-    assert described == (None,) * 6 and orbit.contacts is None
+    assert described == (None,) * 6 and orbit.contacts is None and orbit.motion is None
     assert orbit.points.shape == (1, 2) and orbit.residual > 1e-3 and orbit.period == 7
     assert str(orbit).startswith("no orbit of period 7: Newton's method did not converge")
     with pytest.raises(ValueError, match="must have converged, got status 'diverged'"):

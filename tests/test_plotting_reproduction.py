@@ -11,6 +11,7 @@ import pytest
 from gearpair import article as hy
 from gearpair import plotting
 from gearpair.article import published
+from gearpair.methods import Integrator
 from gearpair.motion import periodic
 
 
@@ -42,3 +43,21 @@ def test_coverage_by_phase():
     ax = plotting.coverage_by_phase(*pair)
     for line, each in zip(ax.lines, pair, strict=False):
         np.testing.assert_allclose(line.get_ydata(), [reached.coverage for reached in each])
+
+
+def test_boundaries_by_step_shows_each_distance_and_clips_at_the_rim():
+    integrators = [Integrator(steps=n) for n in (20, 40)]
+    trials = hy.run_trials([hy.SWAPPED], hy.all_protocols(), 41, integrators)
+    axes = plotting.boundaries_by_step(trials)
+    assert [ax.get_title().split(":")[0] for ax in axes] == ["F2", "F4", "F6", "F8", "F10", "F11", "D2", "D4"]
+    for k, ax in enumerate(axes):
+        rim = 17.0 * (0.003 if k < 6 else 0.0002)
+        lines = {line.get_label(): line for line in ax.lines if line.get_label() in ("up", "down", "restart")}
+        for seeding, line in lines.items():
+            drawn = {
+                t.integrator.steps: (*t.frequency.matches, *t.damping.matches)[k].distance
+                for t in trials
+                if t.protocol.seeding == seeding
+            }
+            there = {n: float(np.clip(d, -rim, rim)) for n, d in drawn.items() if d is not None}
+            assert dict(zip(line.get_xdata(), line.get_ydata(), strict=True)) == pytest.approx(there)

@@ -6,6 +6,7 @@ import xarray as xr
 
 import gearpair as gp
 from gearpair.article import published
+from tests import always_in_contact
 
 OSC = gp.Oscillator()
 CHAOS, periodic = gp.motion.CHAOS, gp.motion.periodic
@@ -42,6 +43,25 @@ def test_what_two_sweeps_saw_is_joined():
     assert [r.motion for r in gp.motion.found_ranges(UP, DOWN, narrowest=1.5)] == [periodic(1), periodic(3)]
 
 
+def test_of_two_runs_that_overlap_the_longer_one_counts():
+    """A short run inside a long one does not shorten it, whichever sweep saw it and whichever starts first."""
+    long, short = made_up([1, 1, 1, 1], [0.0, 1.0, 5.0, 9.0]), made_up([3, 1, 1, 3], [2.0, 3.0, 4.0, 5.0])
+    for sweeps in ((long, short), (short, long)):
+        joined = [(r.lower, r.upper) for r in gp.motion.found_ranges(*sweeps, narrowest=3.5)]
+        assert joined == [(0.0, 9.0)]
+    touching = made_up([3, 1, 1], [8.0, 9.0, 11.0])
+    assert [(r.lower, r.upper) for r in gp.motion.found_ranges(long, touching, narrowest=3.5)] == [(0.0, 11.0)]
+    apart = made_up([3, 1, 1], [8.0, 9.5, 11.0])
+    assert [(r.lower, r.upper) for r in gp.motion.found_ranges(long, apart, narrowest=1.5)] == [(0.0, 9.0), (9.5, 11.0)]
+
+
+def test_a_range_just_as_wide_as_the_narrowest_stays():
+    runs = made_up([1, 1, 2, 2], [0.0, 1.0, 2.0, 4.0])
+    assert [(r.lower, r.upper) for r in gp.motion.found_ranges(runs, narrowest=1.0)] == [(0.0, 1.0), (2.0, 4.0)]
+    assert [(r.lower, r.upper) for r in gp.motion.found_ranges(runs, narrowest=1.01)] == [(2.0, 4.0)]
+    assert [r.width for r in gp.motion.found_ranges(runs)] == [1.0, 2.0]
+
+
 def test_sweeps_over_two_parameters_are_not_joined():
     with pytest.raises(ValueError, match="over one parameter, got mesh_frequency, damping_ratio"):
         gp.motion.found_ranges(UP, made_up([1], [0.1], "damping_ratio"))
@@ -57,6 +77,25 @@ def test_representatives_are_the_motions_named():
     assert (shown[CHAOS].oscillator.mesh_frequency, shown[CHAOS].status) == (1.22, "aperiodic")
 
 
+@pytest.mark.parametrize(
+    ("values", "middle"),
+    [([0.72, 0.74, 0.76, 0.78, 1.65], 0.74), ([0.74, 0.78, 1.64, 1.67, 1.7], 1.67)],
+)
+def test_a_representative_is_from_the_middle_of_the_widest_run(values, middle):
+    """Whether the widest run of period 2 is the first or the last; the first sweep that met a motion gives it."""
+    result = gp.sweep(OSC, "mesh_frequency", values)
+    runs = gp.motion.motion_ranges(result)
+    wide, narrow = sorted((run for run in runs if run.motion == runs[0].motion), key=lambda run: -run.width)
+    assert wide.width > 0.03 and narrow.width == 0.0
+    (shown,) = gp.motion.representatives(OSC, result, motions=[wide.motion]).values()
+    assert shown.oscillator.mesh_frequency == middle and (shown.status, shown.period) == ("periodic", 2)
+    (shown,) = gp.motion.representatives(OSC, result, motions=[wide.motion], near={wide.motion: narrow.lower}).values()
+    assert shown.oscillator.mesh_frequency == narrow.lower
+    other = gp.sweep(OSC, "mesh_frequency", [0.73])
+    (shown,) = gp.motion.representatives(OSC, other, result, motions=[wide.motion]).values()
+    assert shown.oscillator.mesh_frequency == 0.73
+
+
 def test_a_chaotic_transient_represents_nothing():
     """A motion that a short transient took for chaos is followed again and turned down when it settles."""
     osc = OSC.replace(damping_ratio=0.0075)
@@ -67,7 +106,10 @@ def test_a_chaotic_transient_represents_nothing():
 
 
 def test_following_both_ways_keeps_to_one_motion():
-    """The large period 1 of the baseline lives up to about 0.92, where the standard start finds periods 2 to 8."""
+    """The large period 1 of the baseline lives until contact resonates at 0.9206, where it grows without bound.
+
+    So it does in steps of up to a fifth: the value after the last one kept is where the next step would be larger.
+    """
     state = gp.steady_state(OSC, -2.0, 1.5)
     assert (state.period, state.impact_state) == (1, "double")
     falling, rising = gp.motion.follow(state, "mesh_frequency", [0.68, 0.69, 0.71, 0.72])
@@ -75,16 +117,21 @@ def test_following_both_ways_keeps_to_one_motion():
     assert rising.mesh_frequency.values.tolist() == [0.71, 0.72]
     life = gp.motion.range_of(state, "mesh_frequency", np.arange(0.6, 1.0, 0.004))
     assert life.motion == periodic(1)
-    assert 0.90 < life.upper < 0.93
+    (resonance,) = always_in_contact.edges(OSC, 1.0, "mesh_frequency", 0.85, 0.97)
+    # |X| ~ 1 / distance from the resonance grows by a fifth in a step of 0.004 at five steps from it, by half at two.
+    assert life.lower == 0.6 and resonance - 5 * 0.004 < life.upper < resonance - 0.004
 
 
 def test_a_jump_to_another_motion_of_the_same_period_ends_a_life():
-    """The large period 2 ends above 1.05, but the sweep falls onto the small period 2 that lives there."""
+    """The large period 2 ends in a fold above 1.05, but the sweep falls onto the small period 2 that lives there."""
     state = gp.steady_state(OSC.replace(mesh_frequency=1.3), -2.0, 0.0)
     values = np.arange(1.04, 1.3, 0.002)
     below = gp.motion.follow(state, "mesh_frequency", values)[0]
     assert below.period.values[-1] == 2 and below.x_max.values[-1] < 1.5 < state.x_max
-    assert 1.06 < gp.motion.range_of(state, "mesh_frequency", values).lower < 1.1
+    orbit = gp.periodic_orbit(state.oscillator, *state.points[0].tolist(), 2)
+    (fold,) = [b for b in gp.continue_orbit(orbit, "mesh_frequency", 1.0, 1.4).bifurcations if b.kind == "fold"]
+    life = gp.motion.range_of(state, "mesh_frequency", values)
+    assert fold.value < life.lower < fold.value + 0.002 and life.upper == 1.3
 
 
 def test_shares_count_the_starts():
@@ -99,6 +146,29 @@ def test_motions_of_attractors_leave_out_small_basins():
     motions = gp.motion.attractor_motions(plane, 0.1)
     assert motions == [periodic(1, gp.ImpactState.DOUBLE), periodic(2, gp.ImpactState.SINGLE_DRIVE)]
     assert len(gp.motion.attractor_motions(plane)) > 2
+
+
+def test_an_attractor_that_just_enough_starts_reach_stays():
+    """One start of three reaches period 1, two reach period 2: a least share of a third keeps both."""
+    plane = gp.basins(OSC, [-2.0, 0.0, 1.0], [0.0])
+    assert plane.attractor_share.values.tolist() == [1 / 3, 2 / 3]
+    assert len(gp.motion.attractor_motions(plane)) == len(gp.motion.attractor_motions(plane, 1 / 3)) == 2
+    assert gp.motion.attractor_motions(plane, 0.34) == [periodic(2, gp.ImpactState.SINGLE_DRIVE)]
+    for share, periods in ((0.0, [1, 2]), (1 / 3, [1, 2]), (0.34, [2]), (0.67, [])):
+        assert [state.period for state in gp.motion.attractor_states(OSC, plane, share)] == periods
+
+
+def test_an_attractor_is_one_whichever_start_reached_it():
+    """Every start of a plane that ends on an orbit gets the orbit's number; two orbits of one period get two."""
+    plane = gp.basins(OSC, np.linspace(-4.0, 4.0, 9), np.linspace(-3.0, 3.0, 7))
+    assert set(plane.attractor_status.values.tolist()) == {"periodic"}
+    points = np.column_stack([plane.attractor_x.values, plane.attractor_v.values])
+    apart = np.abs(points[:, None] - points[None]).max(axis=2) + np.eye(len(points))
+    assert len(points) > 1 and np.nanmin(apart) > 1e-6
+    for number in range(len(points)):
+        same = plane.attractor.values == number
+        assert np.ptp(plane.x_min.values[same]) < 1e-8 and np.ptp(plane.period.values[same]) == 0
+    assert plane.attractor_share.values.sum() == pytest.approx(1.0)
 
 
 STATED = (

@@ -109,7 +109,7 @@ def test_a_stop_keeps_what_is_done(monkeypatch, seeding):
     monkeypatch.setattr(settling, "settle_rows", interrupted)
     monkeypatch.setattr(settling, "BLOCK", 1)
     monkeypatch.setattr(_cores.config, "NUMBA_NUM_THREADS", 1)
-    with pytest.warns(UserWarning, match="stopped after [2-4] of 6 motions"):
+    with pytest.warns(UserWarning, match="stopped after [2-5] of 6 motions"):
         diagram = gp.sweep(BASELINE, "mesh_frequency", np.linspace(1.5, 1.6, 6), seeding=seeding, **QUICK)
     stopped = diagram.status.values == "not_run"
     assert stopped[2]

@@ -25,7 +25,7 @@ def test_one_that_is_far_is_new_one_that_comes_back_takes_its_number_and_escape_
 
 
 def test_shares_sum_to_one_and_follow_the_basins():
-    """At the baseline period 1 and 2 share the plane; at a damping of 0.1 the clatter has ended."""
+    """At the baseline period 1 and 2 share the plane; above 0.1 period 1 has it alone, without the clatter."""
     shares = motion.continue_attractors(gp.Oscillator(), "damping_ratio", [0.02, 0.021, 0.1], n=120)
     np.testing.assert_allclose(shares.share.sum("attractor"), 1.0)
     double = [
@@ -41,7 +41,7 @@ def test_shares_sum_to_one_and_follow_the_basins():
 
 
 def test_a_map_with_all_that_can_be_asked_for():
-    """Hysteresis where sweeps up and down differ, as many attractors as the starts reach, measures of the motion."""
+    """Hysteresis where the sweeps up and down differ; as many attractors as the starts reach; measures."""
     osc, values = gp.Oscillator(), np.linspace(0.7, 1.1, 9)
     asked = {"starts": [[1.0, 0.0], [-2.0, 1.5]], "n_transient": 300, "n_exponent": 100}
     grid = gp.parameter_map(osc, {"mesh_frequency": values}, measures=True, carried="mesh_frequency", **asked)

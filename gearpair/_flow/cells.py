@@ -4,6 +4,10 @@ On a cell that stays in one region (coast-side contact, free flight, drive-side 
 its end is an affine function of the state at its start. These maps, with the constants that certify
 that no crossing happens inside, are computed once per oscillator; the march then needs a few
 multiply-adds a cell.
+
+Higher harmonics of the transmission error turn faster, so the cells are narrower. Those that would be one cell without
+them form a *block* with maps and constants of its own: where a block certainly stays in one region the march takes
+it in one step, and the harmonics cost nothing there.
 """
 
 from typing import NamedTuple
@@ -11,7 +15,18 @@ from typing import NamedTuple
 import numpy as np
 
 from ._kernel import kernel
-from .closed_form import DEGREE, REACH, TERMS, fastest_rate, fill_basis, fourth_derivative_bound
+from .closed_form import (
+    AMPLITUDE,
+    DEGREE,
+    ORDER,
+    PHASE,
+    REACH,
+    TERMS,
+    fastest_rate,
+    fill_basis,
+    fill_forced,
+    fourth_derivative_bound,
+)
 
 # Columns of `Cells.maps`: x1 = XX x + XV v + X0, v1 = VX x + VV v + V0, and the spread
 # SX |x - s| + SV |v| + S0 >= max |w^4 X''''| / 384 over the cell.
@@ -36,6 +51,7 @@ class Parameters(NamedTuple):
     mesh_frequency: float
     edges: np.ndarray  # (n_levels + 1,), from 0 to 1
     levels: np.ndarray  # (n_levels,)
+    harmonics: np.ndarray  # (n, 3): order, amplitude and phase of what the error has besides its first harmonic
 
 
 class Cells(NamedTuple):
@@ -43,20 +59,27 @@ class Cells(NamedTuple):
 
     force: float
     amplitude: float  # A = F_ah Omega^2
-    turn: float  # 2 pi, the forcing's phase over a mesh period
+    phase_per_period: float  # 2 pi, of the forcing's first harmonic
+    start_force: float  # the whole forcing at the start of a mesh period
+    start_rate: float  # and its rate over Omega
     clock: np.ndarray  # (n_cells, 4)
     level: np.ndarray  # (n_cells,) index of the stiffness level
     maps: np.ndarray  # (n_cells, 3, COLUMNS)
     bases: np.ndarray  # (n_levels, 2, 5, TERMS), free flight and contact
     fourths: np.ndarray  # (n_levels, 2, 5) bounds of their fourth derivatives
+    forced: np.ndarray  # (n_cells, 2, TERMS) responses from rest to the higher harmonics; no rows without these
+    forced_fourths: np.ndarray  # (n_cells, 2) bounds of their fourth derivatives
+    blocks: np.ndarray  # (n_blocks + 1,) first cell of each block
+    block_width: np.ndarray  # (n_blocks,)
+    block_maps: np.ndarray  # (n_blocks, 3, COLUMNS)
     period: float
     damping_ratio: float
     escape_radius: float  # |X| + |X'| from which no motion comes back
 
 
 @kernel
-def count_cells(p, level):
-    """How many cells one stiffness level needs."""
+def count_blocks(p, level):
+    """How many blocks one stiffness level needs: cells, if the forcing has one harmonic."""
     rate = fastest_rate(p.levels[level], p.damping_ratio, p.mesh_frequency)
     rate = max(rate, 2.0 * p.damping_ratio)
     span = (p.edges[level + 1] - p.edges[level]) * 2.0 * np.pi / p.mesh_frequency
@@ -64,28 +87,55 @@ def count_cells(p, level):
 
 
 @kernel
+def count_cells(p, level):
+    """How many cells one stiffness level needs: whole blocks of them."""
+    order = 0.0
+    for i in range(p.harmonics.shape[0]):
+        order = max(order, p.harmonics[i, ORDER])
+    n_blocks = count_blocks(p, level)
+    turn = order * 2.0 * np.pi * (p.edges[level + 1] - p.edges[level]) / n_blocks
+    return n_blocks * max(1, int(np.ceil(turn / REACH)))
+
+
+@kernel
 def build_cells(p):
     """Cut the mesh period of oscillator `p` into cells."""
     n_levels = p.levels.size
-    n_cells = 0
+    n_cells, n_blocks = 0, 0
     for i in range(n_levels):
         n_cells += count_cells(p, i)
+        n_blocks += count_blocks(p, i)
+    amplitude = p.error_amplitude * p.mesh_frequency**2
+    force, rate = p.mean_force + amplitude * np.sin(p.error_phase), amplitude * np.cos(p.error_phase)
+    for h in p.harmonics:
+        size = h[AMPLITUDE] * (h[ORDER] * p.mesh_frequency) ** 2
+        force += size * np.sin(h[PHASE])
+        rate += h[ORDER] * size * np.cos(h[PHASE])
+    n_forced = n_cells if p.harmonics.shape[0] > 0 else 0
     cells = Cells(
         p.mean_force,
-        p.error_amplitude * p.mesh_frequency**2,
+        amplitude,
         2.0 * np.pi,
+        force,
+        rate,
         np.empty((n_cells, 4)),
         np.empty(n_cells, np.int64),
         np.empty((n_cells, 3, COLUMNS)),
         np.empty((n_levels, 2, 5, TERMS)),
         np.empty((n_levels, 2, 5)),
+        np.empty((n_forced, 2, TERMS)),
+        np.empty((n_forced, 2)),
+        np.empty(n_blocks + 1, np.int64),
+        np.empty(n_blocks),
+        np.empty((n_blocks, 3, COLUMNS)),
         2.0 * np.pi / p.mesh_frequency,
         p.damping_ratio,
         ESCAPE_RADIUS if contact_growth(p) > 1.0 else np.inf,
     )
-    j = 0
+    j, b = 0, 0
     for i in range(n_levels):
         n = count_cells(p, i)
+        per_block = n // count_blocks(p, i)
         span = (p.edges[i + 1] - p.edges[i]) / n
         width = span * cells.period
         fill_basis(0.0, p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 0])
@@ -95,15 +145,23 @@ def build_cells(p):
                 cells.fourths[i, contact, k] = fourth_derivative_bound(cells.bases[i, contact, k], 1.0)
         for m in range(n):
             start = p.edges[i] + m * span
-            theta = cells.turn * start + p.error_phase
+            theta = cells.phase_per_period * start + p.error_phase
             cells.clock[j, WIDTH] = width
             cells.clock[j, START] = start
             cells.clock[j, SINE] = cells.amplitude * np.sin(theta)
             cells.clock[j, COSINE] = cells.amplitude * np.cos(theta)
             cells.level[j] = i
+            if n_forced > 0:
+                for contact in range(2):
+                    kappa, row = p.levels[i] * contact, cells.forced[j, contact]
+                    fill_forced(kappa, p.damping_ratio, p.mesh_frequency, width, start, p.harmonics, row)
+                    cells.forced_fourths[j, contact] = fourth_derivative_bound(row, 1.0)
             for region in range(3):
                 fill_map(cells, j, region)
             j += 1
+            if (m + 1) % per_block == 0:
+                fill_block(cells, b, j - per_block, j)
+                b += 1
     return cells
 
 
@@ -152,3 +210,38 @@ def fill_map(cells, j, region):
     fourths = cells.fourths[cells.level[j], abs(region - 1)]
     row[SX], row[SV] = fourths[0] / 384.0, fourths[1] / 384.0
     row[S0] = (fourths[2] * abs(cells.force) + fourths[3] * abs(sine) + fourths[4] * abs(cosine)) / 384.0
+    if cells.forced.shape[0] > 0:
+        forced = cells.forced[j, abs(region - 1)]
+        for n in range(DEGREE, -1, -1):
+            row[X0] += forced[n]
+            row[V0] += n * forced[n] / width
+        row[S0] += cells.forced_fourths[j, abs(region - 1)] / 384.0
+
+
+@kernel
+def fill_block(cells, b, first, last):
+    """Join cells `first` to `last` (of equal width and one stiffness level) to block `b`.
+
+    Its map is the product of theirs. Its spread is the largest of theirs, each written in terms of the
+    state at the block's start, in the block's width: there is no jump of X'' inside a stiffness level.
+    """
+    n = last - first
+    cells.blocks[b], cells.blocks[b + 1] = first, last
+    cells.block_width[b] = n * cells.clock[first, WIDTH]
+    for region in range(3):
+        row = cells.block_maps[b, region]
+        row[:] = cells.maps[first, region]
+        shift = region - 1.0
+        for j in range(first + 1, last):
+            cell = cells.maps[j, region]
+            resting = row[XX] * shift + row[X0] - shift
+            sx = cell[SX] * abs(row[XX]) + cell[SV] * abs(row[VX])
+            sv = cell[SX] * abs(row[XV]) + cell[SV] * abs(row[VV])
+            s0 = cell[SX] * abs(resting) + cell[SV] * abs(row[VX] * shift + row[V0]) + cell[S0]
+            row[SX], row[SV], row[S0] = max(row[SX], sx), max(row[SV], sv), max(row[S0], s0)
+            xx, xv, x0 = row[XX], row[XV], row[X0]
+            row[XX], row[VX] = cell[XX] * xx + cell[XV] * row[VX], cell[VX] * xx + cell[VV] * row[VX]
+            row[XV], row[VV] = cell[XX] * xv + cell[XV] * row[VV], cell[VX] * xv + cell[VV] * row[VV]
+            row[X0] = cell[XX] * x0 + cell[XV] * row[V0] + cell[X0]
+            row[V0] = cell[VX] * x0 + cell[VV] * row[V0] + cell[V0]
+        row[SX:] *= float(n) ** 4

@@ -6,11 +6,14 @@ Between two events the equation is linear with constant coefficients,
 
 with (kappa, s) = (k, 1) in drive-side contact, (k, -1) in coast-side contact and (0, 0) in free
 flight. Its solution is an entire function of the elapsed time h, linear in the five numbers
-(X - s, X', F_m, A sin theta, A cos theta) at h = 0. On a *cell*, a piece of the mesh period of width w
+(X - s, X', F_m, A sin theta, A cos theta) at h = 0; what higher harmonics of the forcing add does not depend on
+the state and is one more power series a cell. On a *cell*, a piece of the mesh period of width w
 over which no rate of the system turns by more than `REACH`, its power series in t = h / w has converged
 to below rounding at `DEGREE`. So one formula serves every case: the textbook's sines and
 exponentials divide by zero at resonance, at critical damping and at zeta = 0; their series does not.
 """
+
+import math
 
 import numpy as np
 
@@ -19,6 +22,11 @@ from ._kernel import kernel
 DEGREE = 15
 TERMS = DEGREE + 1
 REACH = 0.6  # REACH**TERMS / TERMS! = 1e-17: the first neglected term
+
+BINOMIALS = np.array([[math.comb(n, k) for k in range(TERMS)] for n in range(TERMS)], dtype=float)
+
+# Columns of `Parameters.harmonics`: order, amplitude (over b_h) and phase of a harmonic of the transmission error.
+ORDER, AMPLITUDE, PHASE = range(3)
 
 
 @kernel
@@ -56,6 +64,41 @@ def fill_basis(kappa, zeta, omega, width, basis):
                 force - 2.0 * zeta * width * (n + 1) * basis[i, n + 1] - kappa * width * width * basis[i, n]
             ) / ((n + 1) * (n + 2))
         power *= turn / (n + 1)
+
+
+@kernel
+def fill_forced(kappa, zeta, omega, width, start, harmonics, forced):
+    """Power series in t = h / width of the response from rest to the higher harmonics of the forcing.
+
+    `start` is the cell's in mesh periods, `harmonics` (n, 3) as in `Parameters`. The equation gives each coefficient
+    from the two before it, as in `fill_basis`.
+    """
+    forced[:] = 0.0
+    for i in range(harmonics.shape[0]):
+        rate = harmonics[i, ORDER] * omega
+        size = harmonics[i, AMPLITUDE] * rate * rate * width * width
+        theta = harmonics[i, ORDER] * 2.0 * np.pi * start + harmonics[i, PHASE]
+        now, then = size * np.sin(theta), size * np.cos(theta)
+        for n in range(DEGREE - 1):  # the forcing's own series first, each term where the response needs it
+            forced[n + 2] += now
+            now, then = then * rate * width / (n + 1), -now * rate * width / (n + 1)
+    for n in range(DEGREE - 1):
+        forced[n + 2] -= 2.0 * zeta * width * (n + 1) * forced[n + 1] + kappa * width * width * forced[n]
+        forced[n + 2] /= (n + 1) * (n + 2)
+
+
+@kernel
+def add_shifted(forced, t, series):
+    """Add to `series` the power series `forced`, expanded about `t`, without its value and slope there."""
+    if t == 0.0:
+        for k in range(2, TERMS):
+            series[k] += forced[k]
+        return
+    for k in range(2, TERMS):
+        shifted = 0.0
+        for n in range(DEGREE, k - 1, -1):
+            shifted = shifted * t + BINOMIALS[n, k] * forced[n]
+        series[k] += shifted
 
 
 @kernel

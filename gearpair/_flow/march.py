@@ -4,7 +4,7 @@ import numpy as np
 
 from ._kernel import inlined_kernel, kernel
 from .cells import COSINE, S0, SINE, SV, SX, V0, VV, VX, WIDTH, X0, XV, XX
-from .closed_form import TERMS, evaluate, expand
+from .closed_form import TERMS, add_shifted, evaluate, expand
 from .event_search import INSIDE, UNDECIDED, first_exit, region_at
 
 # Status of a march.
@@ -16,9 +16,37 @@ MAX_EVENTS_PER_PERIOD = 10_000
 @kernel
 def first_region(cells, x, v):
     """The region that the motion enters from (x, v) at the start of a mesh period."""
-    sine, cosine = cells.clock[0, SINE], cells.clock[0, COSINE]
-    acceleration = cells.force + sine - 2.0 * cells.damping_ratio * v
-    return region_at(x, v, acceleration, cosine)
+    return region_at(x, v, cells.start_force - 2.0 * cells.damping_ratio * v, cells.start_rate)
+
+
+@inlined_kernel
+def start_segment(cells, j, t, x, v, region, series):
+    """Fill `series` with the power series in the time since t of the motion in cell `j`; bounds its fourth derivative.
+
+    Times are in widths of the cell.
+    """
+    level, width = cells.level[j], cells.clock[j, WIDTH]
+    contact = abs(region)
+    sine, cosine = cells.clock[j, SINE], cells.clock[j, COSINE]
+    if t > 0.0:
+        turn = t * width * cells.phase_per_period / cells.period
+        c, s = np.cos(turn), np.sin(turn)
+        sine, cosine = sine * c + cosine * s, cosine * c - sine * s
+    forced_fourth, p, dp = 0.0, 0.0, 0.0
+    if cells.forced.shape[0] > 0:
+        if t > 0.0:
+            # The response to the higher harmonics runs on from the cell's start; what is left is a state without them.
+            p, dp, _ = evaluate(cells.forced[j, contact], t)
+            x, v = x - p, v - dp / width
+        forced_fourth = cells.forced_fourths[j, contact]
+    expand(cells.bases[level, contact], region, x, v, cells.force, sine, cosine, series)
+    if cells.forced.shape[0] > 0:
+        series[0], series[1] = series[0] + p, series[1] + dp
+        add_shifted(cells.forced[j, contact], t, series)
+    fourths = cells.fourths[level, contact]
+    fourth = fourths[0] * abs(x - region) + fourths[1] * abs(v)
+    fourth += fourths[2] * abs(cells.force) + fourths[3] * abs(sine) + fourths[4] * abs(cosine)
+    return fourth + forced_fourth
 
 
 @inlined_kernel
@@ -28,17 +56,8 @@ def next_segment(cells, j, t, x, v, region, series):
     Times are in widths of the cell. Fills `series` with the segment's power series in the time since t. Returns
     (outcome, duration, x, v), x exactly on the boundary after an exit.
     """
-    level, width = cells.level[j], cells.clock[j, WIDTH]
-    contact = abs(region)
-    sine, cosine = cells.clock[j, SINE], cells.clock[j, COSINE]
-    if t > 0.0:
-        turn = t * width * cells.turn / cells.period
-        c, s = np.cos(turn), np.sin(turn)
-        sine, cosine = sine * c + cosine * s, cosine * c - sine * s
-    expand(cells.bases[level, contact], region, x, v, cells.force, sine, cosine, series)
-    fourths = cells.fourths[level, contact]
-    fourth = fourths[0] * abs(x - region) + fourths[1] * abs(v)
-    fourth += fourths[2] * abs(cells.force) + fourths[3] * abs(sine) + fourths[4] * abs(cosine)
+    width = cells.clock[j, WIDTH]
+    fourth = start_segment(cells, j, t, x, v, region, series)
     end = 1.0 - t
     if t == 0.0:
         x1, v1 = map_cell(cells, j, x, v, region)
@@ -78,6 +97,24 @@ def cross_cell(cells, j, x, v, region, series):
             return TOO_MANY_EVENTS, events, x, v, region
 
 
+@inlined_kernel
+def cross_block(cells, b, x, v, region, series):
+    """`cross_cell` for a block: its cells one by one, where there are several."""
+    events = 0
+    first, last = cells.blocks[b], cells.blocks[b + 1]
+    for j in range(first, last):
+        if last - first > 1:
+            certain, x1, v1, _low, _high = follow_cell(cells, j, x, v, region)
+            if certain:
+                x, v = x1, v1
+                continue
+        status, n, x, v, region = cross_cell(cells, j, x, v, region, series)
+        events += n
+        if status != OK:
+            return status, events, x, v, region
+    return OK, events, x, v, region
+
+
 @kernel
 def map_cell(cells, j, x, v, region):
     """The state at the end of cell `j`, all of it spent in `region`."""
@@ -91,9 +128,20 @@ def follow_cell(cells, j, x, v, region):
 
     ``low`` and ``high`` bound X over the cell; the certificate is the first of `event_search`.
     """
-    x1, v1 = map_cell(cells, j, x, v, region)
-    row = cells.maps[j, region + 1]
-    third = cells.clock[j, WIDTH] / 3.0
+    return follow(cells.maps[j, region + 1], cells.clock[j, WIDTH], x, v, region)
+
+
+@kernel
+def follow_block(cells, b, x, v, region):
+    """`follow_cell` for a block."""
+    return follow(cells.block_maps[b, region + 1], cells.block_width[b], x, v, region)
+
+
+@kernel
+def follow(row, width, x, v, region):
+    """`follow_cell` by the map and spread in `row` over a time `width`."""
+    x1, v1 = row[XX] * x + (row[XV] * v + row[X0]), row[VX] * x + (row[VV] * v + row[V0])
+    third = width / 3.0
     b1, b2 = x + third * v, x1 - third * v1
     spread = row[SX] * abs(x - region) + (row[SV] * abs(v) + row[S0])
     low = min(min(x, b1), min(b2, x1)) - spread
@@ -111,12 +159,12 @@ def march(cells, x, v, n_periods, series):
     region = first_region(cells, x, v)
     for _ in range(n_periods):
         events = 0
-        for j in range(cells.level.size):
-            certain, x1, v1, _low, _high = follow_cell(cells, j, x, v, region)
+        for b in range(cells.block_width.size):
+            certain, x1, v1, _low, _high = follow_block(cells, b, x, v, region)
             if certain:
                 x, v = x1, v1
                 continue
-            status, n, x, v, region = cross_cell(cells, j, x, v, region, series)
+            status, n, x, v, region = cross_block(cells, b, x, v, region, series)
             events += n
             if status != OK:
                 return status, x, v

@@ -11,7 +11,8 @@ Math. Comp. 46 (1986) 135.
 import numpy as np
 
 from ._kernel import kernel
-from .cells import Parameters
+from .closed_form import AMPLITUDE, ORDER, PHASE
+from .settle import parameters_of
 
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
 STAGES = np.array(
@@ -55,6 +56,9 @@ def deflection(x):
 def acceleration(p, tau, x, v):
     """X'' of oscillator `p` at (tau, x, v)."""
     force = p.mean_force + p.error_amplitude * p.mesh_frequency**2 * np.sin(p.mesh_frequency * tau + p.error_phase)
+    for h in p.harmonics:
+        rate = h[ORDER] * p.mesh_frequency
+        force += h[AMPLITUDE] * rate * rate * np.sin(rate * tau + h[PHASE])
     force -= 2.0 * p.damping_ratio * v
     gap = deflection(x)
     if gap == 0.0:
@@ -186,8 +190,7 @@ def integrate_rows(first, last, lanes, chain, n_periods, rtol, atol, least_steps
         x, v = lanes.starts[i, 0], lanes.starts[i, 1]
         if i % chain > 0 and status[i - 1] == COMPLETE:
             x, v = points[i - 1, -1, 0], points[i - 1, -1, 1]
-        s = lanes.scalars[i]
-        p = Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i])
+        p = parameters_of(lanes, i)
         max_step = 2.0 * np.pi / (p.mesh_frequency * least_steps) if least_steps > 0 else np.inf
         status[i], _steps, calls[i] = integrate(p, x, v, n_periods, rtol, atol, max_step, max_steps, points[i])
 
@@ -244,6 +247,5 @@ def integrate_fixed_rows(first, last, lanes, chain, n_periods, n_steps, points, 
         x, v = lanes.starts[i, 0], lanes.starts[i, 1]
         if i % chain > 0 and status[i - 1] == COMPLETE:
             x, v = points[i - 1, -1, 0], points[i - 1, -1, 1]
-        s = lanes.scalars[i]
-        p = Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i])
+        p = parameters_of(lanes, i)
         status[i] = integrate_fixed(p, x, v, n_periods, n_steps, points[i])

@@ -42,6 +42,7 @@ class Lanes(NamedTuple):
     scalars: np.ndarray  # (n, 5): mean force, error amplitude, error phase, damping ratio, mesh frequency
     edges: np.ndarray  # (n, n_levels + 1)
     levels: np.ndarray  # (n, n_levels)
+    harmonics: np.ndarray  # (n, n_harmonics, 3)
     starts: np.ndarray  # (n, 2)
     n_transient: np.ndarray  # (n,)
 
@@ -66,6 +67,13 @@ class Known(NamedTuple):
 
     settled: Settled  # one row an attractor
     neighbourhoods: np.ndarray  # (m, COLUMNS), OWNER the attractor's row
+
+
+@kernel
+def parameters_of(lanes, i):
+    """The oscillator of lane `i`."""
+    s = lanes.scalars[i]
+    return Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i], lanes.harmonics[i])
 
 
 @kernel
@@ -295,8 +303,7 @@ def settle_rows(first, last, lanes, chain, max_period, n_exponent, most, known, 
         x, v = lanes.starts[i, 0], lanes.starts[i, 1]
         if i % chain != 0 and out.status[i - 1] < GONE:
             x, v = out.final[i - 1, 0], out.final[i - 1, 1]
-        s = lanes.scalars[i]
-        cells = build_cells(Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i]))
+        cells = build_cells(parameters_of(lanes, i))
         settle(cells, x, v, lanes.n_transient[i], max_period, n_exponent, most, known, neighbourhoods, out, i, series)
 
 

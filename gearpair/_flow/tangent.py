@@ -6,7 +6,7 @@ has no jump: its matrix is the product of the linear pieces' own, and its determ
 
 import numpy as np
 
-from ._kernel import kernel
+from ._kernel import inlined_kernel, kernel
 from .cells import VV, VX, WIDTH, XV, XX
 from .closed_form import evaluate
 from .event_search import INSIDE, UNDECIDED
@@ -17,6 +17,7 @@ from .march import (
     OK,
     TOO_MANY_EVENTS,
     first_region,
+    follow_block,
     follow_cell,
     next_segment,
     region_after,
@@ -43,31 +44,57 @@ def apply_segment(cells, j, region, duration, m):
 
 
 @kernel
+def apply_map(row, m):
+    """Multiply `m` by the linear part of the affine map in `row`."""
+    apply(row[XX], row[XV], row[VX], row[VV], m)
+
+
+@inlined_kernel
+def cross_block_tangent(cells, b, x, v, region, m, series):
+    """`cross_block` that also multiplies `m`: (status, number of events, x, v, region)."""
+    events = 0
+    first, last = cells.blocks[b], cells.blocks[b + 1]
+    for j in range(first, last):
+        if last - first > 1:
+            certain, x1, v1, _low, _high = follow_cell(cells, j, x, v, region)
+            if certain:
+                apply_map(cells.maps[j, region + 1], m)
+                x, v = x1, v1
+                continue
+        t = 0.0
+        while True:
+            outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
+            if outcome == UNDECIDED:
+                return EVENT_UNDECIDED, events, x, v, region
+            apply_segment(cells, j, region, duration, m)
+            if outcome == INSIDE:
+                break
+            t += duration
+            region = region_after(region, x)
+            events += 1
+            if events > MAX_EVENTS_PER_PERIOD:
+                return TOO_MANY_EVENTS, events, x, v, region
+    return OK, events, x, v, region
+
+
+@kernel
 def march_tangent(cells, x, v, n_periods, m, series):
     """`march` that also multiplies `m` (2, 2) by the monodromy matrix of the span: (status, x, v)."""
     region = first_region(cells, x, v)
     for _ in range(n_periods):
         events = 0
-        for j in range(cells.level.size):
-            certain, x1, v1, _low, _high = follow_cell(cells, j, x, v, region)
+        for b in range(cells.block_width.size):
+            certain, x1, v1, _low, _high = follow_block(cells, b, x, v, region)
             if certain:
-                row = cells.maps[j, region + 1]
-                apply(row[XX], row[XV], row[VX], row[VV], m)
+                apply_map(cells.block_maps[b, region + 1], m)
                 x, v = x1, v1
                 continue
-            t = 0.0
-            while True:
-                outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
-                if outcome == UNDECIDED:
-                    return EVENT_UNDECIDED, x, v
-                apply_segment(cells, j, region, duration, m)
-                if outcome == INSIDE:
-                    break
-                t += duration
-                region = region_after(region, x)
-                events += 1
-                if events > MAX_EVENTS_PER_PERIOD:
-                    return TOO_MANY_EVENTS, x, v
+            status, n, x, v, region = cross_block_tangent(cells, b, x, v, region, m, series)
+            events += n
+            if status != OK:
+                return status, x, v
+            if events > MAX_EVENTS_PER_PERIOD:
+                return TOO_MANY_EVENTS, x, v
         if not abs(x) + abs(v) <= cells.escape_radius:
             return ESCAPED, x, v
     return OK, x, v

@@ -12,15 +12,16 @@ from gearpair.article.comparison import (
     compare_ranges,
     distance_from_bifurcations,
     drawn_boundary,
+    named_bifurcation,
     nearest,
 )
-from gearpair.article.existence import STARTS, Reached, reached
+from gearpair.article.existence import STARTS, Reached, reached, shared_boundaries
 from gearpair.article.items import (
+    bifurcations_of,
     boundary_items,
     chaos_items,
     integrator_items,
     model_items,
-    period_two,
     range_items,
     route_items,
     start_items,
@@ -28,6 +29,14 @@ from gearpair.article.items import (
 )
 from gearpair.article.readings import PRINTED, SWAPPED, Hypothesis, all_hypotheses
 from gearpair.article.scoring import Match, Score, axis, published_kind, published_motions, random_tables, score
+from gearpair.article.search import (
+    TOLERANCES,
+    asked_phase_table,
+    asked_phases,
+    boundaries_met,
+    most_met_by_chance,
+    search_table,
+)
 from gearpair.article.trials import (
     Protocol,
     Ranked,
@@ -36,10 +45,12 @@ from gearpair.article.trials import (
     periods,
     ranking,
     run_trials,
-    runge_kutta_trials,
     score_by_choice,
+    score_by_start,
 )
-from gearpair.article.verdicts import Verdict, judge, judge_number, verdict_table
+from gearpair.article.two_rotors import two_rotor_difference
+from gearpair.article.verdicts import Verdict, count_verdicts, counter_evidence, judge, verdict_table
+from gearpair.article.wave_shape import SweptWave, sweep_waves
 
 __all__ = [
     "Hypothesis",
@@ -51,25 +62,33 @@ __all__ = [
     "STARTS",
     "SWAPPED",
     "Score",
+    "SweptWave",
+    "TOLERANCES",
     "Trial",
     "Verdict",
     "all_hypotheses",
     "all_protocols",
+    "asked_phase_table",
+    "asked_phases",
     "axis",
+    "bifurcations_of",
+    "boundaries_met",
     "boundary_items",
     "boundary_table",
     "chaos_items",
     "compare_attractors",
     "compare_boundaries",
     "compare_ranges",
+    "count_verdicts",
+    "counter_evidence",
     "distance_from_bifurcations",
     "drawn_boundary",
     "integrator_items",
     "judge",
-    "judge_number",
     "model_items",
+    "most_met_by_chance",
+    "named_bifurcation",
     "nearest",
-    "period_two",
     "periods",
     "published",
     "published_kind",
@@ -80,10 +99,14 @@ __all__ = [
     "reached",
     "route_items",
     "run_trials",
-    "runge_kutta_trials",
     "score",
     "score_by_choice",
+    "score_by_start",
+    "search_table",
+    "shared_boundaries",
     "start_items",
+    "sweep_waves",
     "transient_items",
+    "two_rotor_difference",
     "verdict_table",
 ]

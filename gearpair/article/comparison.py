@@ -153,33 +153,51 @@ def nearest(stated: float, bifurcations: Iterable[Bifurcation]) -> Bifurcation |
     return min(changes, key=lambda b: abs(b.value - stated), default=None)
 
 
-def boundary_table(
-    printed: Sequence[Trial], others: Sequence[Trial], best: Sequence[Trial], bifurcations: Sequence[Bifurcation]
-) -> Table:
-    """Every published boundary: where the printed reading, all others, and the best one put it.
+def named_bifurcation(boundary: Boundary, bifurcations: Iterable[Bifurcation]) -> Bifurcation | None:
+    """The bifurcation nearest to a published boundary, of the kind that the article names there.
+
+    A period doubling is a flip of the period below the boundary, a halving one of the period above, a saddle-node a
+    fold of the period below; where the article names nothing, any fold or flip will do.
+    """
+    ranges = published.ranges(boundary.parameter)
+    place = published.boundaries(boundary.parameter).index(boundary)
+    below, above = (ranges[k].motion.period for k in (place, place + 1))
+    named = {
+        "period doubling": ("flip", below), "period halving": ("flip", above), "saddle-node or similar": ("fold", below)
+    }.get(boundary.event or "")  # fmt: skip
+    there = (b for b in bifurcations if b.parameter == boundary.parameter)
+    return nearest(boundary.value, [b for b in there if named in (None, (b.kind, b.period))])
+
+
+def boundary_table(trials: Mapping[str, Sequence[Trial]], bifurcations: Mapping[str, Sequence[Bifurcation]]) -> Table:
+    """Every published boundary: where several readings draw it, and how far their bifurcation of the named kind lies.
 
     Parameters
     ----------
-    printed, others, best : sequence of Trial
-        The nearest boundary between the same two motions in any diagram counts.
-    bifurcations : sequence of Bifurcation
-        Of the best reading; the nearest fold or flip within a tenth of the axis, with its distance from the published
-        value.
+    trials : mapping of str to sequence of Trial
+        By reading; the nearest boundary between the same two motions in any of its diagrams counts.
+    bifurcations : mapping of str to sequence of Bifurcation
+        By reading; the one of the kind that the article names, if within a tenth of the axis.
+
+    Returns
+    -------
+    Table
     """
     rows = []
     for boundary in published.FREQUENCY_BOUNDARIES + published.DAMPING_BOUNDARIES:
         digits = 3 if boundary.parameter == "mesh_frequency" else 5
-        drawn = [drawn_boundary(trials, boundary) for trials in (printed, others, best)]
-        texts = ["–" if value is None else f"{value:.{digits}f}" for value in drawn]
-        ends = axis(boundary.parameter, 2)
-        change = nearest(boundary.value, [b for b in bifurcations if b.parameter == boundary.parameter])
-        if change is not None and abs(change.value - boundary.value) > REACH * (ends[1] - ends[0]):
-            change = None
-        named = "–" if change is None else f"{change.kind} of period {change.period} at {change.value:.5f}"
-        away = "–" if change is None else f"{change.value - boundary.value:+.{digits + 1}f}"
-        rows.append([boundary.item, f"{boundary.value:.{digits}f}", *texts, named, away])
-    columns = ["item", "published", "printed", "others", "best", "bifurcation of the best", "distance"]
-    return Table(columns, rows)
+        lower, upper = axis(boundary.parameter, 2)
+        drawn = [drawn_boundary(each, boundary) for each in trials.values()]
+        cells = ["–" if value is None else f"{value:.{digits}f}" for value in drawn]
+        for each in bifurcations.values():
+            b = named_bifurcation(boundary, each)
+            if b is None or abs(b.value - boundary.value) > REACH * (upper - lower):
+                cells.append("–")
+            else:
+                cells.append(f"{b.kind} of period {b.period} ({b.value - boundary.value:+.{digits + 1}f})")
+        rows.append([boundary.item, f"{boundary.value:.{digits}f}", boundary.event or "", *cells])
+    columns = [*(f"drawn, {name}" for name in trials), *(f"bifurcation, {name}" for name in bifurcations)]
+    return Table(["item", "published", "said to be", *columns], rows)
 
 
 def distance_from_bifurcations(

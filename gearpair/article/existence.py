@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearpair.article import published
-from gearpair.article.readings import Hypothesis
+from gearpair.article.readings import Hypothesis, by_levels
 from gearpair.article.scoring import axis, published_kind, published_motions
 from gearpair.article.trials import MAX_PERIOD
 from gearpair.motion.names import Motion
@@ -60,6 +61,23 @@ class Reached:
         return float(np.mean(self.published_present[inside]))
 
 
+def shared_boundaries(reached: Reached) -> list[str]:
+    """The items of the published boundaries at which the motions of both sides exist.
+
+    Parameters
+    ----------
+    reached : Reached
+        The value nearest to a boundary tells.
+
+    Returns
+    -------
+    list of str
+    """
+    pairs = zip(published.boundaries(reached.parameter), pairwise(published_motions(reached.parameter)), strict=True)
+    nearest = [(b.item, kinds, int(np.argmin(np.abs(reached.values - b.value)))) for b, kinds in pairs]
+    return [item for item, kinds, i in nearest if set(kinds) <= reached.motions[i]]
+
+
 def reached(
     hypotheses: Sequence[Hypothesis],
     parameter: str,
@@ -96,10 +114,12 @@ def reached(
     """
     edges = axis(parameter, n_values + 1)
     values = 0.5 * (edges[1:] + edges[:-1])
-    oscillators = [osc for h in hypotheses for osc in h.along(parameter, values) for _ in starts]
     settings = SettleSettings(n_transient=n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD)
-    out = settle_lanes(oscillators, np.tile(starts, (len(oscillators) // len(starts), 1)), settings)
-    found = out.period.reshape(len(hypotheses), n_values, len(starts))
+    found = np.zeros((len(hypotheses), n_values, len(starts)), np.int64)
+    for places in by_levels(hypotheses):
+        oscillators = [osc for i in places for osc in hypotheses[i].along(parameter, values) for _ in starts]
+        out = settle_lanes(oscillators, np.tile(starts, (len(oscillators) // len(starts), 1)), settings)
+        found[places] = out.period.reshape(len(places), n_values, len(starts))
     return [
         Reached(
             h, parameter, values, tuple(frozenset(published_kind(int(m), parameter) for m in row) for row in found[i])

@@ -236,7 +236,11 @@ STATEMENTS = (
     Statement("K4", "value", "The baseline takes eps = 1.68 with a and b of 34 teeth against 34."),
     Statement("K5", "claim", "The rectangle excites more faithfully than a sinusoid and predicts more credibly."),
     Statement("N1", "method", "Variable-step Runge-Kutta 4-5 handles stiffness and discontinuities accurately."),
-    Statement("N2", "method", "Phase portraits, Poincare maps, spectra; bifurcation diagrams varied adiabatically."),
+    Statement(
+        "N2",
+        "method",
+        "On the section few points tell a period, a structured set quasi-periodic motion, a dense set chaos.",
+    ),
     Statement("N3", "value", "The baseline: F_m' 0.1, F_ah 0.2, phi_h 0, eps 1.68, a 0.116, b 0.414, zeta 0.02."),
     Statement("F1", "range", "Period 1 from 0.700 to 0.799: one closed orbit, lines at n Omega_h."),
     Statement("F2", "value", "Period doubling at 0.799."),

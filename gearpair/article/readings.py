@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Literal
@@ -14,7 +15,8 @@ from gearpair.article import published
 from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
 
-SHAPES = {0.0: "sin", 90.0: "cos", 180.0: "-sin", 270.0: "-cos"}
+N_LEVELS = 24  # of the staircase that stands for one harmonic
+FORCINGS = {0.0: "sin", 90.0: "cos", 180.0: "-sin", 270.0: "-cos"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,8 +36,11 @@ class Hypothesis:
         Whether the forcing's amplitude is F_ah Omega^2 (item M6) or F_ah.
     mean : {"as printed", "one"}
         Whether the wave is divided by its mean, as item M5 asks.
-    damping : {"2 zeta", "zeta"}
-        The coefficient of X'.
+    damping : {"2 zeta", "zeta", "2 zeta sqrt(mean)"}
+        The coefficient of X'. The first is the article's own convention (item M5), the last its zeta taken of the
+        critical damping at the mean of the wave that is used, which item M5 says is k_m and the numbers do not make so.
+    shape : {"rectangle", "first harmonic"}
+        Whether the wave is the rectangle or its mean and first harmonic alone, as a staircase of `N_LEVELS`.
 
     Examples
     --------
@@ -48,7 +53,8 @@ class Hypothesis:
     phase: float = 0.0
     force: Literal["Omega^2", "constant"] = "Omega^2"
     mean: Literal["as printed", "one"] = "as printed"
-    damping: Literal["2 zeta", "zeta"] = "2 zeta"
+    damping: Literal["2 zeta", "zeta", "2 zeta sqrt(mean)"] = "2 zeta"
+    shape: Literal["rectangle", "first harmonic"] = "rectangle"
 
     def __post_init__(self) -> None:
         check_choice("stiff_for", self.stiff_for, ("eps - 1", "2 - eps"))
@@ -56,19 +62,20 @@ class Hypothesis:
         check_number("phase", self.phase)
         check_choice("force", self.force, ("Omega^2", "constant"))
         check_choice("mean", self.mean, ("as printed", "one"))
-        check_choice("damping", self.damping, ("2 zeta", "zeta"))
+        check_choice("damping", self.damping, ("2 zeta", "zeta", "2 zeta sqrt(mean)"))
+        check_choice("shape", self.shape, ("rectangle", "first harmonic"))
 
     def __str__(self) -> str:
-        shape = SHAPES.get(self.phase % 360.0, f"sin(. + {self.phase:g} deg)")
+        forcing = FORCINGS.get(self.phase % 360.0, f"sin(. + {self.phase:g} deg)")
         words = (
             f"stiff for {self.stiff_for}",
             f"{self.first} first",
-            shape,
+            forcing,
             self.force,
             f"mean {self.mean}",
             self.damping,
         )
-        return ", ".join(words)
+        return ", ".join(words if self.shape == "rectangle" else (*words, self.shape))
 
     @property
     def wave(self) -> StiffnessWave:
@@ -78,8 +85,10 @@ class Hypothesis:
         high, low = 1.0 + base.a, 1.0 - base.b
         mean = stiff * high + (1.0 - stiff) * low if self.mean == "one" else 1.0
         if self.first == "stiff":
-            return StiffnessWave((0.0, stiff), (high / mean, low / mean))
-        return StiffnessWave((0.0, 1.0 - stiff), (low / mean, high / mean))
+            rectangle = StiffnessWave((0.0, stiff), (high / mean, low / mean))
+        else:
+            rectangle = StiffnessWave((0.0, 1.0 - stiff), (low / mean, high / mean))
+        return rectangle if self.shape == "rectangle" else rectangle.truncated(1, N_LEVELS)
 
     def oscillator(
         self,
@@ -87,14 +96,15 @@ class Hypothesis:
         damping_ratio: float = published.BASELINE.damping_ratio,
     ) -> Oscillator:
         """The article's baseline in this reading."""
-        base = published.BASELINE
+        base, wave = published.BASELINE, self.wave
+        scale = {"2 zeta": 1.0, "zeta": 0.5, "2 zeta sqrt(mean)": float(np.sqrt(wave.mean))}[self.damping]
         return Oscillator(
             mean_force=base.mean_force,
             error_amplitude=base.error_amplitude * (1.0 if self.force == "Omega^2" else mesh_frequency**-2),
             error_phase=base.error_phase + float(np.radians(self.phase)),
-            damping_ratio=damping_ratio * (1.0 if self.damping == "2 zeta" else 0.5),
+            damping_ratio=scale * damping_ratio,
             mesh_frequency=mesh_frequency,
-            stiffness=self.wave,
+            stiffness=wave,
         )
 
     def along(self, parameter: str, values: ArrayLike) -> list[Oscillator]:
@@ -108,22 +118,38 @@ SWAPPED = Hypothesis(stiff_for="2 - eps")
 
 
 def all_hypotheses() -> tuple[Hypothesis, ...]:
-    """Every combination of the readings, the phase in quarter turns.
+    """Every combination of the readings of a rectangle, the phase in quarter turns, and one harmonic in its place.
+
+    The damping at the wave's mean is left out where that mean is one: it is then the article's own. One harmonic is
+    combined with durations, order and phase only.
 
     Examples
     --------
     >>> len(all_hypotheses()), all_hypotheses()[0] == PRINTED
-    (128, True)
+    (176, True)
     """
-    choices = product(
-        ("eps - 1", "2 - eps"),
-        ("stiff", "soft"),
-        SHAPES,
-        ("Omega^2", "constant"),
-        ("as printed", "one"),
-        ("2 zeta", "zeta"),
-    )
-    return tuple(
+    orders = list(product(("eps - 1", "2 - eps"), ("stiff", "soft"), FORCINGS))
+    scalings = [
+        (force, mean, damping)
+        for force, mean, damping in product(
+            ("Omega^2", "constant"), ("as printed", "one"), ("2 zeta", "zeta", "2 zeta sqrt(mean)")
+        )
+        if (mean, damping) != ("one", "2 zeta sqrt(mean)")
+    ]
+    rectangles = [
         Hypothesis(stiff_for=s, first=i, phase=p, force=f, mean=m, damping=d)  # type: ignore[arg-type]
-        for s, i, p, f, m, d in choices
-    )
+        for (s, i, p), (f, m, d) in product(orders, scalings)
+    ]
+    harmonics = [
+        Hypothesis(stiff_for=s, first=i, phase=p, shape="first harmonic")  # type: ignore[arg-type]
+        for s, i, p in orders
+    ]
+    return (*rectangles, *harmonics)
+
+
+def by_levels(hypotheses: Sequence[Hypothesis]) -> list[list[int]]:
+    """The places of hypotheses whose waves have equally many levels, which can be followed side by side."""
+    places: dict[int, list[int]] = {}
+    for i, hypothesis in enumerate(hypotheses):
+        places.setdefault(len(hypothesis.wave.levels), []).append(i)
+    return list(places.values())

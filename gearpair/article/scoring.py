@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import groupby, pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -56,6 +56,15 @@ REACH = 1 / 10  # of the axis: a boundary found this far from the published one 
 
 
 @dataclass(frozen=True)
+class Change:
+    """Where one kind of motion gives way to another in a table, the parameter rising."""
+
+    below: Motion
+    above: Motion
+    value: float
+
+
+@dataclass(frozen=True)
 class Match:
     """A published boundary and the nearest computed boundary between the same two kinds of motion.
 
@@ -90,6 +99,8 @@ class Score:
         ``2 L / (m + n)``: L is the longest common subsequence of the two sequences of motions, m and n their lengths.
     motions : tuple of Motion
         The sequence found.
+    changes : tuple of Change
+        Its boundaries.
     matches : tuple of Match
         One per published boundary.
     """
@@ -99,6 +110,7 @@ class Score:
     closeness: float
     sequence: float
     motions: tuple[Motion, ...]
+    changes: tuple[Change, ...]
     matches: tuple[Match, ...]
 
     @property
@@ -189,16 +201,15 @@ def score(parameter: str, values: ArrayLike, periods: ArrayLike) -> Score:
     )
     width = ranges[-1].upper - ranges[0].lower
     runs = _runs(grid, motions, NARROW * width)
+    changes = tuple(Change(left[0], right[0], right[1]) for left, right in pairwise(runs))
     matches = []
-    for k, boundary in enumerate(published.boundaries(parameter)):
-        steps = [
-            right[1] for left, right in zip(runs, runs[1:], strict=False) if (left[0], right[0]) == expected[k : k + 2]
-        ]
-        matches.append(Match(boundary, min(steps, key=lambda step: abs(step - boundary.value), default=None)))
+    for boundary, kinds in zip(published.boundaries(parameter), pairwise(expected), strict=True):
+        places = [change.value for change in changes if (change.below, change.above) == kinds]
+        matches.append(Match(boundary, min(places, key=lambda place: abs(place - boundary.value), default=None)))
     closeness = [0.0 if m.distance is None else max(0.0, 1.0 - abs(m.distance) / (REACH * width)) for m in matches]
     sequence = tuple(run[0] for run in runs)
     common = 2.0 * _common(sequence, expected) / (len(sequence) + len(expected))
-    return Score(parameter, agreement, float(np.mean(closeness)), common, sequence, tuple(matches))
+    return Score(parameter, agreement, float(np.mean(closeness)), common, sequence, changes, tuple(matches))
 
 
 def _runs(grid: NDArray[np.float64], motions: Sequence[Motion], narrow: float) -> list[tuple[Motion, float]]:

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._checks import check_choice, check_count
-from gearpair.article.readings import SHAPES, Hypothesis
+from gearpair.article.readings import FORCINGS, Hypothesis, by_levels
 from gearpair.article.scoring import Score, axis, score
-from gearpair.methods.runge_kutta import runge_kutta_sweep
+from gearpair.methods.runge_kutta import Integrator, section_period
 from gearpair.motion.settling import SettleSettings, settle_lanes
 from gearpair.tables import Table
 
@@ -66,10 +66,14 @@ def all_protocols(
 
 @dataclass(frozen=True)
 class Trial:
-    """One hypothesis drawn by one protocol, and its scores on the two published axes."""
+    """One hypothesis drawn by one protocol, and its scores on the two published axes.
+
+    `integrator` is None where the motions were followed by the exact flow.
+    """
 
     hypothesis: Hypothesis
     protocol: Protocol
+    integrator: Integrator | None
     frequency: Score
     damping: Score
 
@@ -80,9 +84,16 @@ class Trial:
 
 
 def periods(
-    hypotheses: Sequence[Hypothesis], protocol: Protocol, parameter: str, n_values: int = 101
+    hypotheses: Sequence[Hypothesis],
+    protocol: Protocol,
+    parameter: str,
+    n_values: int = 101,
+    integrator: Integrator | None = None,
 ) -> NDArray[np.int64]:
     """The period at each value of a parameter (rising), 0 where none up to 12; shape (hypotheses, n_values).
+
+    With an integrator the period is read off the section as a reader would (`gearpair.methods.section_period`), and
+    the protocol needs a number of mesh periods to discard.
 
     Examples
     --------
@@ -92,17 +103,33 @@ def periods(
     """
     values = axis(parameter, n_values)
     order = slice(None, None, -1) if protocol.seeding == "down" else slice(None)
-    oscillators = [osc for hypothesis in hypotheses for osc in hypothesis.along(parameter, values[order])]
-    starts = np.broadcast_to([protocol.x, protocol.v], (len(oscillators), 2))
-    settings = SettleSettings(
-        n_transient=protocol.n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD
-    )
-    out = settle_lanes(oscillators, starts, settings, chain=1 if protocol.seeding == "restart" else n_values)
-    return out.period.reshape(len(hypotheses), n_values)[:, order]
+    chain = 1 if protocol.seeding == "restart" else n_values
+    found = np.zeros((len(hypotheses), n_values), np.int64)
+    for places in by_levels(hypotheses):
+        oscillators = [osc for i in places for osc in hypotheses[i].along(parameter, values[order])]
+        if integrator is None:
+            starts = np.broadcast_to([protocol.x, protocol.v], (len(oscillators), 2))
+            settings = SettleSettings(
+                n_transient=protocol.n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD
+            )
+            drawn = settle_lanes(oscillators, starts, settings, chain=chain).period
+        else:
+            n_discarded = check_count("n_discarded", protocol.n_discarded)
+            sections = integrator.sections(
+                oscillators, protocol.x, protocol.v, n_discarded, 2 * MAX_PERIOD, chain=chain
+            )
+            drawn = np.array([section_period(section) for section in sections])
+        found[places] = drawn.reshape(len(places), n_values)[:, order]
+    return found
 
 
-def run_trials(hypotheses: Sequence[Hypothesis], protocols: Sequence[Protocol], n_values: int = 101) -> list[Trial]:
-    """Every hypothesis by every protocol, the best first.
+def run_trials(
+    hypotheses: Sequence[Hypothesis],
+    protocols: Sequence[Protocol],
+    n_values: int = 101,
+    integrators: Sequence[Integrator | None] = (None,),
+) -> list[Trial]:
+    """Every hypothesis by every protocol and every integrator, the best first.
 
     Parameters
     ----------
@@ -110,10 +137,17 @@ def run_trials(hypotheses: Sequence[Hypothesis], protocols: Sequence[Protocol], 
     protocols : sequence of Protocol
     n_values : int
         Values on each axis.
+    integrators : sequence of Integrator or None
+        None is the exact flow.
 
     Returns
     -------
     list of Trial
+
+    Raises
+    ------
+    ValueError
+        For an integrator with a protocol that waits until motions settle.
 
     Examples
     --------
@@ -123,55 +157,12 @@ def run_trials(hypotheses: Sequence[Hypothesis], protocols: Sequence[Protocol], 
     True
     """
     done = []
-    for protocol in protocols:
-        found = {p: periods(hypotheses, protocol, p, n_values) for p in ("mesh_frequency", "damping_ratio")}
+    for protocol, integrator in product(protocols, integrators):
+        parameters = ("mesh_frequency", "damping_ratio")
+        found = {p: periods(hypotheses, protocol, p, n_values, integrator) for p in parameters}
         for i, hypothesis in enumerate(hypotheses):
             scores = [score(p, axis(p, n_values), motions[i]) for p, motions in found.items()]
-            done.append(Trial(hypothesis, protocol, *scores))
-    return sorted(done, key=lambda trial: -trial.total)
-
-
-def runge_kutta_trials(
-    hypotheses: Sequence[Hypothesis], protocols: Sequence[Protocol], rtol: float, n_values: int = 61
-) -> list[Trial]:
-    """`run_trials` with Runge-Kutta 4-5 in place of the exact flow, periods read off as a reader would.
-
-    Parameters
-    ----------
-    hypotheses : sequence of Hypothesis
-        With forcing and damping as printed: others have no single oscillator to sweep.
-    protocols : sequence of Protocol
-        With a number of periods to discard.
-    rtol : float
-        The relative tolerance; the absolute one is a thousandth of it.
-    n_values : int
-        Values on each axis.
-
-    Returns
-    -------
-    list of Trial
-        The best first.
-
-    Raises
-    ------
-    ValueError
-        For another forcing or damping, or a protocol that waits until motions settle.
-    """
-    done = []
-    for hypothesis, protocol in product(hypotheses, protocols):
-        check_choice("force", hypothesis.force, ("Omega^2",))
-        check_choice("damping", hypothesis.damping, ("2 zeta",))
-        n_discarded = check_count("n_discarded", protocol.n_discarded)
-        scores = []
-        for parameter in ("mesh_frequency", "damping_ratio"):
-            osc, values = hypothesis.oscillator(), axis(parameter, n_values)
-            drawn = runge_kutta_sweep(
-                osc, parameter, values[::-1] if protocol.seeding == "down" else values, x=protocol.x, v=protocol.v,
-                seeding="restart" if protocol.seeding == "restart" else "carry", n_transient=n_discarded,
-                n_samples=2 * MAX_PERIOD, rtol=rtol, atol=1e-3 * rtol,
-            ).sortby(parameter)  # fmt: skip
-            scores.append(score(parameter, values, drawn.period.values))
-        done.append(Trial(hypothesis, protocol, *scores))
+            done.append(Trial(hypothesis, protocol, integrator, *scores))
     return sorted(done, key=lambda trial: -trial.total)
 
 
@@ -214,5 +205,25 @@ def score_by_choice(ranked: Sequence[Ranked]) -> Table:
         for value in dict.fromkeys(getattr(entry.hypothesis, field.name) for entry in ranked):
             places = [i for i, entry in enumerate(ranked) if getattr(entry.hypothesis, field.name) == value]
             mean = float(np.mean([ranked[i].mean for i in places]))
-            rows.append([field.name.replace("_", " "), SHAPES.get(value, value), places[0] + 1, f"{mean:.2f}"])
+            rows.append([field.name.replace("_", " "), FORCINGS.get(value, value), places[0] + 1, f"{mean:.2f}"])
     return Table(["choice", "value", "best place", "mean score"], rows)
+
+
+def score_by_start(done: Iterable[Trial]) -> Table:
+    """For each start the mean and the best score over all that was drawn from it, the highest mean first.
+
+    Parameters
+    ----------
+    done : iterable of Trial
+        Of `run_trials`.
+
+    Returns
+    -------
+    Table
+    """
+    grouped: dict[tuple[float, float], list[float]] = {}
+    for trial in done:
+        grouped.setdefault((trial.protocol.x, trial.protocol.v), []).append(trial.total)
+    ordered = sorted(grouped.items(), key=lambda entry: -float(np.mean(entry[1])))
+    rows = [[f"({x:g}, {v:g})", f"{np.mean(totals):.2f}", f"{max(totals):.2f}"] for (x, v), totals in ordered]
+    return Table(["start", "mean score", "best score"], rows)

@@ -1,24 +1,34 @@
-"""Every numbered item of the article tested in two readings: what it states, what each gives, and the verdict.
+"""What becomes of every numbered item of the article, by one rule.
 
-A test returns one `Verdict` per item. The rule is the same everywhere (`judge`): an item that holds in both readings is
-confirmed; one that holds in one of them only, or with another number, is corrected; one that holds in neither is
-refuted; one that nothing could contradict is vacuous.
+A test asks whether an item holds in the printed reading and whether it holds in the best one; for a number there is a
+third answer, that it nearly holds, with another number. `judge` makes a word of the two answers:
+
+- *confirmed*: it holds in both;
+- *corrected*: it holds in the best reading only, or nearly, and no less than as printed: right about what was computed,
+  once the reading or the number is put right;
+- *contrary*: it holds better as printed than in the best reading. That corrects nothing: it is evidence against the
+  best reading, and stands among the evidence;
+- *refuted*: it holds in neither;
+- *vacuous*: no outcome of any computation could contradict it.
+
+What no computation decides has a word of its own and is not counted: a *definition*, an *assumption*, an *advice*.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from gearpair.article import published
 from gearpair.tables import Table
 
-if TYPE_CHECKING:
-    pass
-
-Word = Literal["confirmed", "corrected", "refuted", "vacuous"]
-NEAR, FAR = 0.01, 0.05  # of the axis: a number holds this near, and is corrected rather than refuted this far
+Decided = Literal["confirmed", "corrected", "contrary", "refuted", "vacuous"]
+Undecided = Literal["definition", "assumption", "advice"]
+DECIDED: tuple[Decided, ...] = ("confirmed", "corrected", "contrary", "refuted", "vacuous")
+UNDECIDED: tuple[Undecided, ...] = ("definition", "assumption", "advice")
+FAILS, NEARLY, HOLDS = 0, 1, 2
+NEAR, FAR = 0.01, 0.05  # of the axis: a number holds this near, and nearly holds this far
 
 
 @dataclass(frozen=True)
@@ -30,43 +40,71 @@ class Verdict:
     item : str
     printed, best : str
         What the printed and the best reading give.
-    verdict : {"confirmed", "corrected", "refuted", "vacuous"}
+    verdict : str
+        One of `DECIDED` or `UNDECIDED`.
+    decided_by : str
+        What computation decided; empty where none did.
     """
 
     item: str
     printed: str
     best: str
-    verdict: Word
+    verdict: Decided | Undecided
+    decided_by: str = ""
+
+    def __post_init__(self) -> None:
+        if (self.verdict in UNDECIDED) == bool(self.decided_by):
+            raise ValueError(
+                f"a verdict needs what decided it, and a word of {', '.join(UNDECIDED)} has none; "
+                f"item {self.item} is {self.verdict!r}, decided by {self.decided_by!r}"
+            )
 
 
-def judge(printed: bool, best: bool) -> Word:
-    """Confirmed in both readings, corrected in one, refuted in none.
-
-    Examples
-    --------
-    >>> judge(True, True), judge(False, True), judge(False, False)
-    ('confirmed', 'corrected', 'refuted')
-    """
-    return "confirmed" if printed and best else "corrected" if printed or best else "refuted"
-
-
-def judge_number(printed: float | None, best: float | None, stated: float, width: float) -> Word:
-    """As `judge`, for a number on an axis of the given width; a best value within 5 % of the axis corrects it.
+def judge(printed: int, best: int) -> Decided:
+    """The word for how far an item holds in the two readings: `FAILS`, `NEARLY` or `HOLDS`.
 
     Examples
     --------
-    >>> judge_number(None, 0.867, 0.865, 1.0), judge_number(None, 0.80, 0.83, 1.0), judge_number(None, None, 0.8, 1.0)
-    ('corrected', 'corrected', 'refuted')
+    >>> judge(HOLDS, HOLDS), judge(FAILS, HOLDS), judge(HOLDS, FAILS), judge(FAILS, FAILS)
+    ('confirmed', 'corrected', 'contrary', 'refuted')
     """
-    near = [value is not None and abs(value - stated) <= NEAR * width for value in (printed, best)]
-    if not any(near) and best is not None and abs(best - stated) <= FAR * width:
-        return "corrected"
-    return judge(*near)
+    if printed > best:
+        return "contrary"
+    if printed == HOLDS:
+        return "confirmed"
+    return "refuted" if best == FAILS else "corrected"
 
 
-def both(item: str, texts: Sequence[str], holds: Sequence[bool]) -> Verdict:
+def grade(value: float | None, stated: float, width: float) -> int:
+    """How far a value on an axis of the given width is the stated one; None fails.
+
+    Examples
+    --------
+    >>> grade(0.867, 0.865, 1.0) == HOLDS, grade(0.80, 0.83, 1.0) == NEARLY, grade(None, 0.8, 1.0) == FAILS
+    (True, True, True)
+    """
+    away = float("inf") if value is None else abs(value - stated) / width
+    return HOLDS if away <= NEAR else NEARLY if away <= FAR else FAILS
+
+
+def both(item: str, texts: Sequence[str], holds: Sequence[bool], decided_by: str) -> Verdict:
     """The verdict on an item from what the two readings give and whether it holds in each."""
-    return Verdict(item, texts[0], texts[1], judge(holds[0], holds[1]))
+    printed, best = (HOLDS if each else FAILS for each in holds)
+    return Verdict(item, texts[0], texts[1], judge(printed, best), decided_by)
+
+
+def count_verdicts(verdicts: Iterable[Verdict]) -> dict[str, int]:
+    """How many items a computation confirmed, corrected and so on, and how many nothing decided.
+
+    Examples
+    --------
+    >>> some = [Verdict("I1", "met", "met", "definition"), both("I2", ["found", "found"], [True, True], "starts")]
+    >>> count_verdicts(some)
+    {'confirmed': 1, 'corrected': 0, 'contrary': 0, 'refuted': 0, 'vacuous': 0, 'not decided': 1}
+    """
+    words = [verdict.verdict for verdict in verdicts]
+    counts: dict[str, int] = {word: words.count(word) for word in DECIDED}
+    return {**counts, "not decided": len(words) - sum(counts.values())}
 
 
 def verdict_table(*groups: Iterable[Verdict]) -> Table:
@@ -83,5 +121,13 @@ def verdict_table(*groups: Iterable[Verdict]) -> Table:
         wrong = {v.item for v in found}.symmetric_difference(expected)
         raise ValueError(f"every item of the article must be there exactly once; look at {', '.join(sorted(wrong))}")
     found.sort(key=lambda verdict: expected.index(verdict.item))
-    rows = [[v.item, published.statement(v.item).text, v.printed, v.best, v.verdict] for v in found]
-    return Table(["item", "the article", "as printed", "best reading", "verdict"], rows)
+    rows = [
+        [v.item, published.statement(v.item).text, v.printed, v.best, v.verdict, v.decided_by or "–"] for v in found
+    ]
+    return Table(["item", "the article", "as printed", "best reading", "verdict", "decided by"], rows)
+
+
+def counter_evidence(verdicts: Iterable[Verdict]) -> Table:
+    """The items that hold better as printed than in the best reading: what speaks against that reading."""
+    rows = [[v.item, published.statement(v.item).text, v.printed, v.best] for v in verdicts if v.verdict == "contrary"]
+    return Table(["item", "the article", "as printed", "best reading"], rows)

@@ -123,10 +123,10 @@ def walk_both_ways(
                 return steps, End.MAX_STEPS
         return steps, End.LOST
 
-    back, back_end = walk(-onwards)
-    if back_end == End.CLOSED:
-        return back, (End.CLOSED, End.CLOSED)
     forth, forth_end = walk(onwards)
+    if forth_end == End.CLOSED:
+        return forth, (End.CLOSED, End.CLOSED)
+    back, back_end = walk(-onwards)
     return back[:0:-1] + forth, (back_end, forth_end)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +48,8 @@ class Branch:
     newton_steps : ndarray of int, shape (n,)
     bifurcations : list of Bifurcation
         In the order met.
+    bifurcation_rows : ndarray of int, shape (n_bifurcations,)
+        The row of the orbit before each.
     ends : tuple of End
         Why the branch ends where it does, at its first and at its last orbit; ``end.remedy`` says what to do.
     """
@@ -63,6 +66,7 @@ class Branch:
     contacts: NDArray[np.int64]
     newton_steps: NDArray[np.int64]
     bifurcations: list[Bifurcation]
+    bifurcation_rows: NDArray[np.int64]
     ends: tuple[End, End]
 
     def impact_states(self) -> list[ImpactState]:
@@ -150,7 +154,7 @@ def continue_orbit(
         largest=largest_step,
         max_steps=max_steps,
     )
-    found = [b for a, c in zip(steps, steps[1:], strict=False) for b in _bifurcations(problem, a, c)]
+    found = [(b, i) for i, (a, c) in enumerate(pairwise(steps)) for b in _bifurcations(problem, a, c)]
     cycles = [step.data for step in steps]
     multipliers = multipliers_of(np.array([c.monodromy for c in cycles]).reshape(-1, 2, 2))
     return Branch(
@@ -165,7 +169,8 @@ def continue_orbit(
         x_max=np.array([c.x_max for c in cycles]),
         contacts=np.array([c.contacts for c in cycles]),
         newton_steps=np.array([step.newton_steps for step in steps]),
-        bifurcations=found,
+        bifurcations=[bifurcation for bifurcation, _ in found],
+        bifurcation_rows=np.array([row for _, row in found], dtype=np.int64),
         ends=ends,
     )
 

@@ -95,6 +95,11 @@ class PeriodicOrbit:
         """The impact state of the cycle; None where Newton's method did not converge."""
         return None if self.x_min is None or self.x_max is None else impact_state(self.x_min, self.x_max)
 
+    @property
+    def motion(self) -> Motion | None:
+        """Its period and impact state as one; None where Newton's method did not converge."""
+        return periodic(self.period, self.impact_state) if self.converged else None
+
     def __repr__(self) -> str:
         """One line; it says so where there is no orbit."""
         x, v = self.points[0]
@@ -110,11 +115,6 @@ class PeriodicOrbit:
             f"{stability} orbit of period {self.period}, {self.impact_state}, "
             f"through X = {x:.5g}, X' = {v:.5g}: multipliers {pair}"
         )
-
-    @property
-    def motion(self) -> Motion:
-        """Its period and impact state as one."""
-        return periodic(self.period, self.impact_state)
 
 
 def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> PeriodicOrbit:

@@ -98,30 +98,32 @@ def _stable_pieces(branch: Branch) -> list[MotionRange]:
     start = None
     for i in range(len(branch.values) + 1):
         inside = i < len(branch.values) and branch.stable[i]
-        if start is not None and (not inside or states[i] != states[start] or _turns(branch, start, i)):
-            ends = [_edge(branch, start - 1, start), _edge(branch, i - 1, i)]
-            pieces.append(MotionRange(min(ends), max(ends), periodic(branch.period, states[start])))
+        if start is not None and (not inside or states[i] != states[start] or _turns_back(branch, start, i)):
+            reached = [_edge(branch, start - 1, start), *branch.values[start:i].tolist(), _edge(branch, i - 1, i)]
+            pieces.append(MotionRange(min(reached), max(reached), periodic(branch.period, states[start])))
             start = None
         if inside and start is None:
             start = i
     return pieces
 
 
-def _turns(branch: Branch, start: int, i: int) -> bool:
+def _turns_back(branch: Branch, start: int, i: int) -> bool:
     """Whether the branch turns back in the parameter at orbit ``i - 1``, after `start`."""
     steps = np.diff(branch.values[max(i - 2, start) : i + 1])
     return len(steps) == 2 and steps[0] * steps[1] < 0.0
 
 
 def _edge(branch: Branch, i: int, j: int) -> float:
-    """The bifurcation's value between orbits `i` and `j` of a branch, or the branch's own end."""
+    """Where between the orbits `i` and `j` a stable range ends, or the branch's own end.
+
+    Stability changes at a fold or a flip, the impact state at a grazing, and one step may pass several: the one next to
+    the stable orbit ends its range.
+    """
     if i < 0 or j >= len(branch.values):
         return float(branch.values[max(i, 0) if j >= len(branch.values) else j])
-    low, high = sorted(branch.values[[i, j]].tolist())
-    margin = high - low
-    near = [b.value for b in branch.bifurcations if low - margin <= b.value <= high + margin]
-    if near:
-        return min(near, key=lambda value: abs(value - 0.5 * (low + high)))
-    # A branch that merges with a shorter orbit ends on the flip, at a multiplier of one to rounding.
-    ends = [k for k in (i, j) if k in (0, len(branch.values) - 1)]
-    return float(branch.values[ends[0]]) if ends else 0.5 * (low + high)
+    changed = branch.stable[i] != branch.stable[j]
+    between = [b for b, row in zip(branch.bifurcations, branch.bifurcation_rows, strict=True) if row == i]
+    fitting = [b.value for b in between if (b.kind != "grazing") == changed] or [b.value for b in between]
+    if not fitting:
+        return float(0.5 * (branch.values[i] + branch.values[j]))
+    return fitting[0] if branch.stable[i] else fitting[-1]

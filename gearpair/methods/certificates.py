@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
-from gearpair._flow.cells import COSINE, SINE, START, WIDTH
+from gearpair._flow.cells import START, WIDTH
 from gearpair._flow.closed_form import TERMS, evaluate_jerk
 from gearpair._flow.event_search import INSIDE, MAX_STEPS, MONOTONE, ROUNDING, UNDECIDED, certified_step
-from gearpair._flow.march import EVENT_UNDECIDED, first_region, next_segment, region_after
+from gearpair._flow.march import EVENT_UNDECIDED, first_region, next_segment, region_after, start_segment
 from gearpair.motion.trajectories import check_starts, raise_unless_ok
 from gearpair.oscillator import Oscillator
 
@@ -216,11 +216,7 @@ def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Se
             clock = cells.clock[j]
             width, t, outcome = clock[WIDTH] / cells.period, 0.0, -1
             while outcome != INSIDE:
-                turn = t * width * cells.turn
-                sine = clock[SINE] * np.cos(turn) + clock[COSINE] * np.sin(turn)
-                cosine = clock[COSINE] * np.cos(turn) - clock[SINE] * np.sin(turn)
-                unit = np.abs([x - region, v, cells.force, sine, cosine])
-                fourth = float(cells.fourths[cells.level[j], abs(region)] @ unit)
+                fourth = start_segment(cells, j, t, x, v, region, series)
                 start, here = period + clock[START] + t * width, region
                 outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
                 if outcome == UNDECIDED:

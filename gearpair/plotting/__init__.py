@@ -5,7 +5,7 @@ colour-blind readers. Nothing is set at import: ``plt.style.use(STYLE)``, or ``w
 the book's look.
 """
 
-from gearpair.plotting.article import coverage_by_phase, reached_motions, score_ranking
+from gearpair.plotting.article import boundaries_by_step, coverage_by_phase, reached_motions, score_ranking
 from gearpair.plotting.bifurcations import bifurcation_curves, branches
 from gearpair.plotting.diagrams import (
     bifurcation_diagram,
@@ -27,6 +27,7 @@ from gearpair.plotting.methods import (
 )
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states, period_map
+from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, rattle, tooth_loads, tornado
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.teeth import (
     compliance_stack,
@@ -42,6 +43,7 @@ from gearpair.plotting.teeth import (
 from gearpair.plotting.waves import harmonics, stiffness_wave
 
 __all__ = [
+    "CHANGES",
     "MOTION_COLOURS",
     "STYLE",
     "add_motion_legend",
@@ -50,6 +52,7 @@ __all__ = [
     "basins",
     "bifurcation_curves",
     "bifurcation_diagram",
+    "boundaries_by_step",
     "branches",
     "certificate",
     "certified_steps",
@@ -57,6 +60,7 @@ __all__ = [
     "contact_ratio_cloud",
     "coverage_by_phase",
     "drawn_diagram",
+    "dynamic_factors",
     "exponents",
     "extremes",
     "finite_element_check",
@@ -80,6 +84,7 @@ __all__ = [
     "quantity_map",
     "range_lanes",
     "range_strips",
+    "rattle",
     "reached_motions",
     "score_ranking",
     "spectrum",
@@ -87,6 +92,8 @@ __all__ = [
     "stiffness_trends",
     "stiffness_wave",
     "time_history",
+    "tooth_loads",
     "tooth_outlines",
+    "tornado",
     "work_precision",
 ]

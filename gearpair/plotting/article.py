@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
 from gearpair.article import published
 from gearpair.article.existence import Reached
 from gearpair.article.readings import Hypothesis
 from gearpair.article.scoring import published_motions
-from gearpair.article.trials import Ranked
-from gearpair.plotting.style import BOUNDARY, INK, LABELS, motion_colour, new_axes
+from gearpair.article.search import TOLERANCES
+from gearpair.article.trials import Ranked, Trial
+from gearpair.plotting.style import BACKLASH, BOUNDARY, INK, LABELS, STYLE, motion_colour, new_axes
 
 
 def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax: Axes | None = None) -> Axes:
@@ -105,3 +107,51 @@ def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], 
     ax.set_xticks(range(-180, 181, 60))
     ax.legend(loc="upper right")
     return ax
+
+
+def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = None) -> list[Axes]:
+    """How far each published boundary is from the drawn one, against the steps a mesh period of fixed-step diagrams.
+
+    Parameters
+    ----------
+    trials : sequence of Trial
+        Of `gearpair.article.run_trials`, with integrators of fixed steps.
+    axes : sequence of eight Axes, optional
+        A new figure without them.
+
+    Returns
+    -------
+    list of Axes
+        One for each published boundary, with one line of dots for each way to sweep, and the tolerance as a band. Dots
+        on the rim lie farther out; what a diagram does not have is not drawn.
+    """
+    if axes is None:
+        with plt.style.context({**STYLE, "font.size": 8.0, "axes.labelsize": 8.0, "axes.titlesize": 8.5}):
+            axes = list(plt.figure(figsize=(8.6, 4.2)).subplots(2, 4, sharex=True).flat)
+    looks = {"restart": ("o", INK), "up": ("^", "#D55E00"), "down": ("v", "#009E73")}
+    boundaries = published.FREQUENCY_BOUNDARIES + published.DAMPING_BOUNDARIES
+    for ax, boundary in zip(axes, boundaries, strict=True):
+        tolerance = TOLERANCES[boundary.parameter]
+        ax.axhspan(-tolerance, tolerance, color=BACKLASH, zorder=-2, linewidth=0)
+        ax.axhline(0.0, color=BOUNDARY, linewidth=0.7)
+        rim = 17.0 * tolerance
+        for seeding, (marker, colour) in looks.items():
+            drawn = [
+                (trial.integrator.steps, match.distance)
+                for trial in trials
+                for match in (*trial.frequency.matches, *trial.damping.matches)
+                if trial.integrator and trial.protocol.seeding == seeding and match.boundary == boundary
+            ]
+            steps = [n or 0 for n, distance in drawn if distance is not None]
+            away = np.clip([distance for _, distance in drawn if distance is not None], -rim, rim)
+            ax.plot(steps, away, linestyle="", marker=marker, markersize=3, color=colour, label=seeding)
+        symbol = LABELS[boundary.parameter].split("$")[1]
+        ax.set(xscale="log", ylim=(-1.1 * rim, 1.1 * rim), title=f"{boundary.item}: ${symbol}$ = {boundary.value:g}")
+        ax.set_xticks([20, 50, 100, 200, 400], ["20", "50", "100", "200", "400"])
+        ax.minorticks_off()
+    for ax in axes[4:]:
+        ax.set_xlabel("steps a mesh period")
+    for ax in (axes[0], axes[4]):
+        ax.set_ylabel("drawn minus published")
+    axes[3].legend(loc="upper left", fontsize=7, handletextpad=0.1, borderaxespad=0.1)
+    return list(axes)

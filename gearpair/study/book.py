@@ -2,55 +2,79 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
+from difflib import get_close_matches
+from importlib.metadata import PackageNotFoundError, distribution
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import nbformat
 import yaml
 
+from gearpair.study.cache import Cache, library_digest, tree_digest, write_whole
 from gearpair.study.chapters import Chapter, read_chapter
+from gearpair.study.claims import claimed
 from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
+from gearpair.study.finishing import finish_site
+from gearpair.study.record import RECORD, versions
+from gearpair.study.side_by_side import execute_all
+from gearpair.study.variants import Variant, read_variants, variant_page, with_variants
 
 EXECUTED = "book/chapters/"
-# MathJax comes with a package, so that a reader's browser fetches nothing; of its 24 MB a page needs these.
-MATHJAX_KEPT = ("tex-chtml.js", "output/chtml/fonts", "input/tex/extensions")
+NOT_SOURCE = ("_build", "tests", "benchmarks", "dist", "build", "chapters", "__pycache__", "*.egg-info", ".*")
+RENDERS = ("sphinx", "jupyter-book", "myst-nb", "sphinx-book-theme", "sphinxcontrib-bibtex", "pydata-sphinx-theme")
 
 
 @dataclass(frozen=True)
 class Book:
-    """A checkout: where its table of contents, its notebooks and its rendered pages are."""
+    """A checkout, or what ``pip install`` put in place of one: its table of contents, its pages, its notebooks."""
 
     root: Path
 
     @classmethod
     def find(cls, root: Path | None = None) -> Book:
         """The book at `root`; without one, of the working directory or a parent of it, else of this package."""
-        places = [root] if root else [Path.cwd(), *Path.cwd().parents, Path(__file__).parents[2]]
+        places = [root] if root else [Path.cwd(), *Path.cwd().parents, Path(__file__).parents[2], *_installed()]
         for place in places:
             if (place / "_toc.yml").is_file() and (place / "notebooks").is_dir():
                 return cls(place.resolve())
         raise StudyError(f"no book here: {places[0]} has no _toc.yml beside a notebooks directory")
 
     @property
-    def executed(self) -> Path:
-        """Where the executed chapters go."""
-        return self.root / EXECUTED
+    def target(self) -> Path:
+        """Where it is built: ``_build`` in the checkout; in the working directory where one may not write there."""
+        writable = os.access(self.root, os.W_OK) and self.root not in _installed()
+        return (self.root if writable else Path.cwd()) / "_build"
 
     @property
     def html(self) -> Path:
         """The rendered site."""
-        return self.root / "_build" / "html"
+        return self.target / "html"
+
+    @property
+    def toc(self) -> dict[str, Any]:
+        """The table of contents (the one place that lists pages and chapters)."""
+        return dict(yaml.safe_load((self.root / "_toc.yml").read_text(encoding="utf-8")))
+
+    @property
+    def title(self) -> str:
+        """The book's title."""
+        return str(yaml.safe_load((self.root / "_config.yml").read_text(encoding="utf-8"))["title"])
+
+    def pages(self) -> list[str]:
+        """All pages after the first, in order."""
+        return _files({key: value for key, value in self.toc.items() if key != "root"})
 
     def chapter_names(self) -> list[str]:
-        """Names of the chapters, in the order of the table of contents (the one place that lists them)."""
-        toc = yaml.safe_load((self.root / "_toc.yml").read_text(encoding="utf-8"))
-        return [file.removeprefix(EXECUTED) for file in _files(toc) if file.startswith(EXECUTED)]
+        """Names of the chapters, in the order of the table of contents."""
+        return [file.removeprefix(EXECUTED) for file in _files(self.toc) if file.startswith(EXECUTED)]
 
     def chapters(self) -> list[Chapter]:
         """All chapters, read."""
@@ -63,8 +87,23 @@ class Book:
             return read_chapter(path)
         names = self.chapter_names()
         if name not in names:
-            raise StudyError(f"there is no chapter {name!r}; there are {', '.join(names)}")
+            close = get_close_matches(name, names, 1)
+            rest = f"did you mean {close[0]!r}?" if close else f"there are {', '.join(names)}"
+            raise StudyError(f"there is no chapter {name!r}; {rest}")
         return read_chapter(self.root / "notebooks" / f"{name}.ipynb")
+
+    def variants(self) -> list[Variant]:
+        """The chapters with other parameters that ``book/variants.yml`` declares."""
+        return read_variants(self.root / "book" / "variants.yml", self.chapter)
+
+
+def _installed() -> list[Path]:
+    """Where ``pip install`` put the book's sources, as the installed package's list of files tells."""
+    try:
+        files = distribution("gearpair").files or []
+    except PackageNotFoundError:
+        return []
+    return [Path(str(file.locate())).resolve().parent for file in files if file.name == "_toc.yml"]
 
 
 def _files(entry: Any) -> list[str]:
@@ -77,10 +116,23 @@ def _files(entry: Any) -> list[str]:
     return []
 
 
-def build_book(book: Book, *, progress: bool = True) -> Path:
-    """Execute every chapter, render the site, and put it in place of the last one.
+def need_book_extra() -> None:
+    """Refuse to make pages where what renders them is not installed."""
+    if find_spec("jupyter_book") is None or find_spec("bs4") is None:
+        raise StudyError("pages need the extra 'book': pip install '.[book]' in a checkout of gearpair")
 
-    Everything is made beside the last good book, which a failure leaves untouched.
+
+def build_book(book: Book, target: Path | None = None) -> Path:
+    """Execute the chapters and variants that have changed, render the site, and put it in place of the last one.
+
+    Everything is made beside the last good book, which a failure leaves untouched; what was executed until then is
+    kept for the next time. Nothing is rendered where nothing has changed.
+
+    Parameters
+    ----------
+    book : Book
+    target : Path, optional
+        The directory to build in; `Book.target` when not given.
 
     Returns
     -------
@@ -92,33 +144,89 @@ def build_book(book: Book, *, progress: bool = True) -> Path:
     StudyError
         If a chapter fails (naming it, the cell and the error) or the site does not build without warnings.
     """
-    chapters = book.chapters()
-    staging = book.root / "_build" / "staging"
-    shutil.rmtree(staging, ignore_errors=True)
-    (staging / "chapters").mkdir(parents=True)
-    for chapter in chapters:
-        output = staging / "chapters" / chapter.path.name
-        notebook = execute(chapter, output, progress=progress)
-        notebook.metadata.pop("papermill", None)  # it names the directories of this machine; readers can download it
-        nbformat.write(notebook, output)
-    _put_in_place(staging / "chapters", book.executed)
-    site = _render(book.root, staging)
-    _trim_mathjax(site / "_static" / "mathjax")
-    _put_in_place(site, book.html)
-    shutil.rmtree(staging)
-    return book.html / "index.html"
+    need_book_extra()
+    target = (target or book.target).resolve()
+    html, chapters, stamp = target / "html", target / "chapters", target / "site.json"
+    pages: list[Chapter | Variant] = [*book.chapters(), *book.variants()]
+    try:
+        target.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise StudyError(f"cannot write to {target}: {error.strerror}; choose another place with -o") from None
+    with claimed(html) as staging:
+        executed = execute_all(pages, Cache(target / "cache"), book.root / "requirements.lock", staging)
+        source = _assemble(book, executed, staging / "source")
+        made_from = [tree_digest(source), library_digest(), versions(RENDERS)]
+        if html.is_dir() and _read_stamp(stamp) == [made_from, tree_digest(html)]:
+            return html / "index.html"
+        site = render(source, staging / "site", book)
+        _put_in_place(source / EXECUTED, chapters)
+        _put_in_place(site, html)
+        write_whole(stamp, json.dumps([made_from, tree_digest(html)]))
+    return html / "index.html"
 
 
-def _render(root: Path, staging: Path) -> Path:
-    """Build the site, warnings as errors; return where it is."""
-    code = "import sys; from jupyter_book.cli.main import main; sys.exit(main())"
-    command = [sys.executable, "-c", code, "build", str(root), "--path-output", str(staging)]
-    options = ["--all", "--warningiserror", "--keep-going", "--quiet"]
-    result = subprocess.run([*command, *options], check=False, stdout=subprocess.PIPE, text=True)
-    if result.returncode:
-        print(result.stdout)
+def _read_stamp(path: Path) -> Any:
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+
+
+def _assemble(book: Book, executed: dict[str, tuple[Chapter | Variant, nbformat.NotebookNode]], source: Path) -> Path:
+    """A copy of the book's sources with the executed chapters in it, and variants in the table of contents."""
+    copy_sources(book.root, source)
+    under: dict[str, list[str]] = {}
+    for name, (page, notebook) in executed.items():
+        if isinstance(page, Variant):
+            notebook = variant_page(page, notebook)
+            under.setdefault(EXECUTED + page.chapter.name, []).append(EXECUTED + name)
+        nbformat.write(notebook, source / EXECUTED / f"{name}.ipynb")
+    write_toc(source, with_variants(book.toc, under))
+    return source
+
+
+def copy_sources(root: Path, source: Path) -> None:
+    """Copy what the pages are made from to `source`, with room for the executed chapters."""
+    own = source.parents[1].resolve()  # where the book is built, which may be below the root
+    not_source = shutil.ignore_patterns(*NOT_SOURCE)
+
+    def ignored(directory: str, names: list[str]) -> set[str]:
+        return not_source(directory, names) | {name for name in names if Path(directory, name).resolve() == own}
+
+    shutil.copytree(root, source, ignore=ignored)
+    (source / EXECUTED).mkdir(parents=True, exist_ok=True)
+
+
+def write_toc(source: Path, toc: Any) -> None:
+    """Write the table of contents of the copied sources."""
+    (source / "_toc.yml").write_text(yaml.safe_dump(toc, sort_keys=False), encoding="utf-8")
+
+
+def render(source: Path, output: Path, book: Book) -> Path:
+    """Build the site below `output` from `source`, a copy of the book with its executed chapters; return where it is.
+
+    Raises
+    ------
+    StudyError
+        If there was a warning.
+    """
+    code, told = run_jupyter_book(source, output, "--warningiserror", "--keep-going")
+    if code:
+        print(told.replace(str(source), str(book.root)), end="", file=sys.stderr)  # the sources that a user can mend
         raise StudyError("the pages did not build without warnings (they are named above); the last book stays")
-    return staging / "_build" / "html"
+    site = output / "_build" / "html"
+    finish_site(site, first_page=book.toc["root"], title=book.title)
+    return site
+
+
+def run_jupyter_book(source: Path, output: Path, *options: str) -> tuple[int, str]:
+    """Render the sources; return the exit code and what was said."""
+    code = "import sys; from jupyter_book.cli.main import main; sys.exit(main())"
+    command = [sys.executable, "-c", code, "build", str(source), "--path-output", str(output), "--all", "--quiet"]
+    done = subprocess.run(
+        [*command, *options], check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
+    return done.returncode, done.stdout
 
 
 def _put_in_place(new: Path, old: Path) -> None:
@@ -129,12 +237,6 @@ def _put_in_place(new: Path, old: Path) -> None:
         os.replace(old, aside)
     os.replace(new, old)
     shutil.rmtree(aside, ignore_errors=True)
-
-
-def _trim_mathjax(mathjax: Path) -> None:
-    for path in [*mathjax.rglob("*")]:
-        if path.is_file() and not path.relative_to(mathjax).as_posix().startswith(MATHJAX_KEPT):
-            path.unlink()
 
 
 def accept_outputs(book: Book, *, progress: bool = True) -> list[str]:
@@ -172,7 +274,8 @@ def stable_notebook(source: Path, executed: nbformat.NotebookNode) -> nbformat.N
             "language_info": {"name": "python"},
         }
     )
-    for cell, run in zip(notebook.cells, executed.cells, strict=True):
+    ran = [cell for cell in executed.cells if RECORD not in cell.metadata.get("tags", [])]
+    for cell, run in zip(notebook.cells, ran, strict=True):
         if cell.cell_type == "code":
             cell.execution_count = run.execution_count
             cell.outputs = [stable for output in run.outputs if (stable := _stable_output(output)) is not None]

@@ -4,7 +4,8 @@ That cell is the chapter's schema. Each of its statements is an annotated litera
 
     damping_ratio: float = 0.02  # zeta, at least 0
 
-and nothing else may stand in it.
+and nothing else may stand in it. The call of `check_parameters` in the cell after it says what the values are
+checked as.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from __future__ import annotations
 import ast
 import io
 import tokenize
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from typing import Any
 import nbformat
 import yaml
 
+from gearpair.parameters import check_parameters, unknown_name
 from gearpair.study.errors import StudyError
 
 TAG = "parameters"
@@ -88,6 +90,24 @@ class Parameter:
             value = yaml.safe_load(text)
         except yaml.YAMLError:
             value = text
+        return self.convert(value) if value is not None else _scalar(inner, value)
+
+    def convert(self, value: Any) -> Any:
+        """`value`, read from a YAML file, as the declared type.
+
+        Raises
+        ------
+        ValueError
+            If it is not of that type.
+
+        Examples
+        --------
+        >>> Parameter("first_start", "list[float]", [1.0, 0.0], "X and X'").convert([1, "1e-3"])
+        [1.0, 0.001]
+        """
+        inner, optional = _without_none(self.annotation)
+        if optional and value is None:
+            return None
         if item := _item_type(inner):
             if not isinstance(value, list):
                 raise ValueError("not a list")
@@ -139,30 +159,53 @@ class Chapter:
     path: Path
     title: str
     parameters: tuple[Parameter, ...]
+    stands_for: Mapping[str, str] | None = None
 
     @property
     def name(self) -> str:
         """How the command line calls it: the notebook's file name without its suffix."""
         return self.path.stem
 
-    def parse(self, given: Iterable[tuple[str, str]]) -> dict[str, Any]:
-        """Values for the names and texts given, checked against the schema.
+    @property
+    def defaults(self) -> dict[str, Any]:
+        """The value of each parameter as the chapter has it."""
+        return {parameter.name: parameter.default for parameter in self.parameters}
+
+    def parse(self, given: Iterable[tuple[str, str]], file: Mapping[str, Any] | None = None) -> dict[str, Any]:
+        """The parameters to change, checked: types by the schema, ranges and relations by the library.
+
+        Parameters
+        ----------
+        given : iterable of (str, str)
+            Names and texts, as typed on a command line.
+        file : mapping of str to object, optional
+            Names and values, as read from a YAML file; those `given` go before them.
 
         Raises
         ------
         StudyError
-            Naming the first parameter that is unknown or of the wrong type, the value, and what is allowed.
+            Naming the first parameter that is unknown or wrong, the value, and what is allowed.
         """
         known = {parameter.name: parameter for parameter in self.parameters}
         values: dict[str, Any] = {}
-        for name, text in given:
+        read = [(name, value, False) for name, value in (file or {}).items()]
+        for name, value, typed in read + [(name, text, True) for name, text in given]:
             if name not in known:
-                raise StudyError(f"{self.name} has no parameter {name!r}; it has {', '.join(known)}")
+                raise StudyError(unknown_name(name, [*known], self.name))
             try:
-                values[name] = known[name].parse(text)
+                values[name] = known[name].parse(value) if typed else known[name].convert(value)
             except ValueError:
-                raise StudyError(f"{name} of {self.name} must be {known[name].allowed}, got {text!r}") from None
+                raise StudyError(f"{name} of {self.name} must be {known[name].allowed}, got {value!r}") from None
+        if self.stands_for is not None:
+            try:
+                check_parameters(self.defaults | values, **self.stands_for)
+            except ValueError as error:
+                raise StudyError(str(error)) from None
         return values
+
+    def convert(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """`parse` for values from a YAML file alone."""
+        return self.parse([], values)
 
 
 def read_chapter(path: Path) -> Chapter:
@@ -183,7 +226,22 @@ def read_chapter(path: Path) -> Chapter:
     tagged = [cell for cell in notebook.cells if TAG in cell.metadata.get("tags", [])]
     if len(tagged) != 1:
         raise StudyError(f"{path} must have exactly one cell tagged {TAG!r}; it has {len(tagged)}")
-    return Chapter(path, _title(notebook, path), tuple(read_parameters(tagged[0].source, str(path))))
+    parameters = tuple(read_parameters(tagged[0].source, str(path)))
+    after = notebook.cells[notebook.cells.index(tagged[0]) + 1 :]
+    return Chapter(path, _title(notebook, path), parameters, _stands_for(after))
+
+
+def _stands_for(cells: list[nbformat.NotebookNode]) -> dict[str, str] | None:
+    """The keywords that the first code cell gives to `check_parameters`; None where it does not call it."""
+    source = next((cell.source for cell in cells if cell.cell_type == "code"), "")
+    try:
+        calls = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Call)]
+    except SyntaxError:  # it runs, or not, in IPython
+        return None
+    for call in calls:
+        if ast.unparse(call.func).endswith("check_parameters"):
+            return {str(word.arg): ast.literal_eval(word.value) for word in call.keywords}
+    return None
 
 
 def read_parameters(source: str, where: str = "the parameters cell") -> list[Parameter]:

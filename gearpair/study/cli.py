@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import signal
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import FrameType
+from typing import TYPE_CHECKING, Any
 
 import click
+import yaml
 
 from gearpair.study.errors import StudyError
 
@@ -18,13 +22,17 @@ EPILOG = """\b
 examples:
   gearpair chapters
   gearpair run stiffness -p gear_teeth 54 -p module_mm 2 -o larger.ipynb
+  gearpair run impacts -p mean_force 0.3 --html
 """
+STOPPED = 130
+PATH: Any = click.Path(path_type=Path)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit code: 0, 1 for a failure told in one sentence, 2 for wrong usage."""
     try:
-        command.main(None if arguments is None else [*arguments], prog_name="gearpair", standalone_mode=False)
+        with _stopped_by_signals():
+            command.main(None if arguments is None else [*arguments], prog_name="gearpair", standalone_mode=False)
     except StudyError as error:
         print(f"gearpair: {error}", file=sys.stderr)
         return 1
@@ -33,12 +41,31 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
     except click.Abort:  # what click makes of a KeyboardInterrupt
         print("gearpair: stopped", file=sys.stderr)
-        return 130
+        return STOPPED
     return 0
 
 
+@contextmanager
+def _stopped_by_signals() -> Iterator[None]:
+    """Let SIGTERM stop the command as Ctrl-C does, so that it clears up; further ones do not disturb it in that."""
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        for each in before:
+            signal.signal(each, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    before = {each: signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        for each in before:
+            signal.signal(each, stop)
+        yield
+    finally:
+        for each, handler in before.items():
+            signal.signal(each, handler)
+
+
 @click.group(epilog=EPILOG, no_args_is_help=False, context_settings={"help_option_names": ["-h", "--help"]})
-@click.option("--root", type=click.Path(path_type=Path), metavar="DIR", help="The checkout; found from here upwards.")
+@click.option("--root", type=PATH, metavar="DIR", help="The checkout; found from here upwards.")
 @click.pass_context
 def command(context: click.Context, root: Path | None) -> None:
     """Nonlinear dynamics of a spur gear pair: run the study's chapters and build its book."""
@@ -67,41 +94,72 @@ def chapters(context: click.Context) -> None:
 @command.command()
 @click.argument("chapter")
 @click.option("-p", "--parameter", "given", nargs=2, multiple=True, metavar="NAME VALUE", help="May be repeated.")
-@click.option(
-    "-o",
-    "--output",
-    type=click.Path(path_type=Path),
-    metavar="OUT.ipynb",
-    help="Where the executed notebook goes; CHAPTER-run.ipynb, here, when not given.",
-)
+@click.option("-f", "--file", type=PATH, metavar="FILE.yml", help="Parameters in a YAML file; -p goes before it.")
+@click.option("-o", "--output", type=PATH, metavar="OUT", help="The executed notebook; CHAPTER-run.ipynb, here.")
+@click.option("--html", is_flag=True, help="Make one web page of it (CHAPTER-run.html) that needs nothing else.")
+@click.option("--quiet", is_flag=True, help="No progress bar.")
 @click.pass_context
-def run(context: click.Context, chapter: str, given: Sequence[tuple[str, str]], output: Path | None) -> None:
+def run(
+    context: click.Context,
+    chapter: str,
+    given: Sequence[tuple[str, str]],
+    file: Path | None,
+    output: Path | None,
+    html: bool,
+    quiet: bool,
+) -> None:
     """Execute one chapter with parameters of your own.
 
     CHAPTER is a chapter's name, or the path of a notebook.
     """
+    from gearpair.study.cache import Cache
+    from gearpair.study.estimate import warning
     from gearpair.study.execution import execute
 
-    read = _book(context).chapter(chapter)
-    values = read.parse(given)
-    output = output or Path(f"{read.name}-run.ipynb")
-    if output.suffix != ".ipynb":
-        raise StudyError(f"the output must be a notebook (a name that ends in .ipynb), got {str(output)!r}")
+    found = _book(context)
+    read = found.chapter(chapter)
+    values = read.parse(given, _read_parameters(file) if file else None)
+    suffix = ".html" if html else ".ipynb"
+    output = output or Path(f"{read.name}-run{suffix}")
+    if output.suffix != suffix:
+        kind = "a page" if html else "a notebook"
+        raise StudyError(f"the output must be {kind} (a name that ends in {suffix}), got {str(output)!r}")
     if not output.absolute().parent.is_dir():
         raise StudyError(f"there is no directory {output.absolute().parent} for the output")
     if output.exists() and output.samefile(read.path):
         raise StudyError(f"the output {str(output)!r} is the chapter's own source; choose another name")
-    execute(read, output, values)
+    if told := warning(read, values, Cache(found.target / "cache").seconds(read.name)):
+        print(told, file=sys.stderr)
+    if html:
+        from gearpair.study.book import need_book_extra
+
+        need_book_extra()
+        from gearpair.study.page import make_page
+
+        make_page(found, read, output, values, progress=not quiet)
+    else:
+        execute(read, output, values, progress=not quiet)
     print(output)
 
 
+def _read_parameters(file: Path) -> dict[str, Any]:
+    try:
+        read = yaml.safe_load(file.read_text(encoding="utf-8")) or {}
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise StudyError(f"{file} cannot be read as YAML: {str(error).splitlines()[0]}") from None
+    if not isinstance(read, dict):
+        raise StudyError(f"{file} must hold lines NAME: VALUE")
+    return {str(name): value for name, value in read.items()}
+
+
 @command.command()
+@click.option("-o", "--output", type=PATH, metavar="DIR", help="Where to build; _build in the checkout if not given.")
 @click.pass_context
-def book(context: click.Context) -> None:
-    """Execute every chapter and build the book."""
+def book(context: click.Context, output: Path | None) -> None:
+    """Execute what has changed and build the book."""
     from gearpair.study.book import build_book
 
-    print(f"The book is at {build_book(_book(context))}")
+    print(f"The book is at {build_book(_book(context), output)}")
 
 
 @command.command()
@@ -112,3 +170,22 @@ def accept(context: click.Context) -> None:
 
     changed = accept_outputs(_book(context))
     print(f"new outputs stored: {', '.join(changed)} (look at them with git diff)" if changed else "nothing changed")
+
+
+@command.command()
+@click.argument("chapters", nargs=-1)
+@click.pass_context
+def stability(context: click.Context, chapters: tuple[str, ...]) -> None:
+    """Run chapters on other terms and compare with the stored outputs.
+
+    As on a processor without fused multiply-add, with one thread, and with parameters changed by 1e-12. CHAPTERS are
+    names; all when none is given.
+    """
+    from gearpair.study.stability import check_stability
+
+    unstable = 0
+    for name, condition, cells in check_stability(_book(context), chapters):
+        unstable += bool(cells)
+        print(f"{name}, {condition}: " + (f"code cells {', '.join(map(str, cells))} differ" if cells else "the same"))
+    if unstable:
+        raise StudyError(f"{unstable} of the runs put out something else than is stored")

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import logging
 import os
-import tempfile
-from collections.abc import Mapping
+import threading
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +18,16 @@ from ipykernel.kernelspec import get_kernel_dict
 from jupyter_client.kernelspec import KernelSpec
 from jupyter_client.manager import AsyncKernelManager
 from nbclient.exceptions import DeadKernelError
+from papermill.engines import NBClientEngine, papermill_engines
 from papermill.exceptions import PapermillExecutionError
 
 from gearpair.study.chapters import Chapter
+from gearpair.study.claims import claimed
 from gearpair.study.errors import StudyError
+from gearpair.study.record import circumstances, recorded
+
+REFRESH = 10.0  # seconds between two signs of life
+PATIENCE = 120  # seconds for what a finished cell printed to arrive; the 4 of nbclient fail on a busy machine
 
 
 class ThisInterpreter(AsyncKernelManager):
@@ -29,8 +37,11 @@ class ThisInterpreter(AsyncKernelManager):
     The talk with the kernel is encrypted where that is possible, for the kernel warns when it is not.
     """
 
+    scratch = Path()  # where the file with the kernel's addresses goes, so that it is cleared with the rest
+
     def __init__(self, **settings: Any) -> None:
-        super().__init__(transport_encryption="auto" if zmq.has("curve") else "disabled", **settings)
+        encryption = "auto" if zmq.has("curve") else "disabled"
+        super().__init__(transport_encryption=encryption, connection_file=str(self.scratch / "kernel.json"), **settings)
 
     @property
     def kernel_spec(self) -> KernelSpec:
@@ -38,12 +49,46 @@ class ThisInterpreter(AsyncKernelManager):
         return KernelSpec(**get_kernel_dict())
 
 
+class LivelyEngine(NBClientEngine):  # type: ignore[misc]
+    """papermill's engine; its bar shows the time also while one cell runs long, and a stop kills the kernel at once."""
+
+    @classmethod
+    def execute_managed_notebook(cls, nb_man: Any, kernel_name: str, **settings: Any) -> Any:
+        """Run the notebook."""
+        with _refreshed(getattr(nb_man, "pbar", None)):
+            return super().execute_managed_notebook(nb_man, kernel_name, shutdown_kernel="immediate", **settings)
+
+
+papermill_engines.register("lively", LivelyEngine)
+
+
+@contextmanager
+def _refreshed(bar: Any) -> Iterator[None]:
+    over = threading.Event()
+
+    def refresh() -> None:
+        while not over.wait(REFRESH):
+            bar.refresh()
+
+    if bar is None:
+        yield
+        return
+    thread = threading.Thread(target=refresh, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        over.set()
+        thread.join()
+
+
 def execute(
     chapter: Chapter, output: Path, values: Mapping[str, Any] | None = None, *, progress: bool = True
 ) -> nbformat.NotebookNode:
     """Run `chapter` with `values` in place of its defaults and write the executed notebook to `output`.
 
-    Nothing is written unless every cell has run.
+    Nothing is written unless every cell has run, and nothing else stays: not when the run is stopped, and after a
+    kill not beyond the next run of the same output.
 
     Parameters
     ----------
@@ -58,24 +103,28 @@ def execute(
     Returns
     -------
     NotebookNode
-        The executed notebook.
+        The executed notebook, which ends with how it was made.
 
     Raises
     ------
     StudyError
-        Naming the chapter, the cell that failed and the last line of its error.
+        Naming the chapter, the cell that failed and the last line of its error; also if another run is at `output`.
     """
+    values = dict(values or {})
     logging.getLogger("papermill").setLevel(logging.ERROR)
-    with tempfile.TemporaryDirectory(dir=output.parent, prefix=".running-") as scratch:
-        partial = Path(scratch) / output.name
+    with claimed(output) as scratch:
+        partial = scratch / output.name
+        began = time.perf_counter()
         try:
             notebook = papermill.execute_notebook(
                 chapter.path,
                 partial,
-                dict(values or {}),
+                values,
+                engine_name="lively",
                 kernel_name="python3",
                 language="python",
-                kernel_manager_class=ThisInterpreter,
+                iopub_timeout=PATIENCE,
+                kernel_manager_class=type("ThisInterpreter", (ThisInterpreter,), {"scratch": scratch.resolve()}),
                 progress_bar={"desc": chapter.name} if progress else False,
             )
         except PapermillExecutionError as error:
@@ -85,6 +134,8 @@ def execute(
             raise StudyError(f"chapter {chapter.name} failed: its kernel died (out of memory?)") from error
         if problems := failures(chapter.name, notebook):
             raise StudyError(problems[0])
+        notebook = recorded(notebook, chapter, values, circumstances(chapter.path, time.perf_counter() - began))
+        nbformat.write(notebook, partial)
         os.replace(partial, output)
     return notebook
 

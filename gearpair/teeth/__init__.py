@@ -1,20 +1,26 @@
 """Tooth geometry to mesh stiffness: the drawing of a pair, the compliance of its teeth, and the pairs in contact."""
 
+from gearpair.teeth.blank import GearBlank
 from gearpair.teeth.finite_elements import FiniteElementBody, double_contact_stiffness, finite_element_bodies
 from gearpair.teeth.iso6336 import IsoStiffness, iso_stiffness
 from gearpair.teeth.meshing import MeshStiffness, mesh_stiffness
 from gearpair.teeth.spurpair import SpurGear, SpurPair
 from gearpair.teeth.tooth_profile import ToothProfile
+from gearpair.teeth.transmission_error import error_harmonics, profile_error, tip_relief
 
 __all__ = [
     "FiniteElementBody",
+    "GearBlank",
     "IsoStiffness",
     "MeshStiffness",
     "SpurGear",
     "SpurPair",
     "ToothProfile",
     "double_contact_stiffness",
+    "error_harmonics",
     "finite_element_bodies",
     "iso_stiffness",
     "mesh_stiffness",
+    "profile_error",
+    "tip_relief",
 ]

@@ -1,0 +1,124 @@
+"""What pages take from the executed chapters, so that it stays true when a chapter is run again.
+
+``{thumbnail} impacts fig-basins`` shows a figure of a chapter in small; ``{claims} F D`` gives the article's items with
+their verdicts, as the chapter `reproduction` found them, for the letters named.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+from html.parser import HTMLParser
+from pathlib import Path
+
+import nbformat
+from docutils import nodes
+from PIL import Image
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+CHAPTERS = "book/chapters"
+THUMBNAILS = f"{CHAPTERS}/thumbnails"  # beside the executed chapters: generated, and not kept
+WIDTH = 720  # pixels: sharp on a screen of twice the density
+VERDICTS = ("reproduction", "verdict")  # the chapter, and the last word of its table's head
+
+
+class Executed(SphinxDirective):
+    """A directive that reads an executed chapter."""
+
+    def cells(self, chapter: str) -> list[nbformat.NotebookNode]:
+        path = Path(self.env.srcdir) / CHAPTERS / f"{chapter}.ipynb"
+        self.env.note_dependency(str(path))
+        if not path.is_file():
+            raise self.error(f"chapter {chapter!r} has not been executed: there is no {path.name} in {CHAPTERS}")
+        return [cell for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "code"]
+
+
+class Thumbnail(Executed):
+    """A chapter's figure in small, with its alternative text."""
+
+    required_arguments = 2
+
+    def run(self) -> list[nodes.Node]:
+        chapter, figure = self.arguments
+        for cell in self.cells(chapter):
+            shown = cell.metadata.get("mystnb", {})
+            pictures = [o.data["image/png"] for o in cell.outputs if "image/png" in o.get("data", {})]
+            if shown.get("figure", {}).get("name") == figure and pictures:
+                self._shrink(figure, pictures[0])
+                alt = shown.get("image", {}).get("alt", "")
+                return [nodes.image(uri=f"/{THUMBNAILS}/{figure}.png", alt=alt, classes=["thumbnail"])]
+        raise self.error(f"chapter {chapter!r} has no figure {figure!r}")
+
+    def _shrink(self, figure: str, encoded: str) -> None:
+        path = Path(self.env.srcdir) / THUMBNAILS / f"{figure}.png"
+        path.parent.mkdir(exist_ok=True)
+        with Image.open(io.BytesIO(base64.b64decode(encoded))) as picture:
+            height = round(picture.height * WIDTH / picture.width)
+            picture.convert("RGB").resize((WIDTH, height), Image.Resampling.LANCZOS).save(path)
+
+
+class Rows(HTMLParser):
+    """The cells of an HTML table as HTML, row by row."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__(convert_charrefs=False)
+        self.rows: list[list[str]] = []
+        self._open = False
+        self.feed(html)
+
+    def handle_starttag(self, tag: str, attributes: object) -> None:
+        if tag == "tr":
+            self.rows.append([])
+        elif tag in {"td", "th"}:
+            self.rows[-1].append("")
+            self._open = True
+        else:
+            self.handle_data(f"<{tag}>")
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag in {"td", "th"}:
+            self._open = False
+        else:
+            self.handle_data(f"</{tag}>")
+
+    def handle_data(self, data: str) -> None:
+        if self._open:
+            self.rows[-1][-1] += data
+
+    def handle_entityref(self, name: str) -> None:
+        self.handle_data(f"&{name};")
+
+    def handle_charref(self, name: str) -> None:
+        self.handle_data(f"&#{name};")
+
+
+class Claims(Executed):
+    """The article's items whose names begin with one of the letters: what is stated, and what became of it."""
+
+    required_arguments = 1
+    optional_arguments = 20
+
+    def run(self) -> list[nodes.Node]:
+        chapter, word = VERDICTS
+        for cell in self.cells(chapter):
+            for output in cell.outputs:
+                rows = Rows(output.get("data", {}).get("text/html", "")).rows
+                if rows and rows[0][-1] == word:
+                    return [self._table([row for row in rows[1:] if row[0][0] in self.arguments])]
+        raise self.error(f"chapter {chapter!r} has no table of verdicts")
+
+    def _table(self, rows: list[list[str]]) -> nodes.Node:
+        marks = "".join(
+            f'<tr><td>{row[0]}</td><td>{row[1]}</td><td class="verdict {row[-1]}">{row[-1]}</td></tr>\n' for row in rows
+        )
+        head = "<tr><th>item</th><th>the article</th><th>verdict</th></tr>"
+        table = f'<table class="table claims"><thead>{head}</thead>\n<tbody>\n{marks}</tbody></table>'
+        return nodes.raw("", table, format="html")
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Register the directives."""
+    app.add_directive("thumbnail", Thumbnail)
+    app.add_directive("claims", Claims)
+    return {"parallel_read_safe": True}

@@ -1,0 +1,70 @@
+// The sliders: each with a field beside it for exact values.
+gearpair.define("controls", ["state"], function ({ NUMBERS, readValue, complaint }) {
+  const GROUPS = [
+    ["Gear pair", ["mesh_frequency", "damping_ratio", "mean_force", "error_amplitude", "error_phase"]],
+    ["Mesh stiffness", ["contact_ratio", "a", "b"]],
+    ["Start", ["x", "v"]],
+  ];
+
+  function slider(entry) {
+    const { name, symbol, label, min, max, step } = entry;
+    const row = document.createElement("div");
+    row.className = "gp-slider";
+    row.innerHTML =
+      `<label for="gp-${name}">${label} <i aria-hidden="true">${symbol}</i></label>` +
+      `<input type="number" inputmode="decimal" step="any" id="gp-${name}-field" aria-label="${label}, exact value">` +
+      `<input type="range" id="gp-${name}" name="${name}" min="${min}" max="${max}" step="${step}">`;
+    return row;
+  }
+
+  // Fill `form` with sliders; `onChange(changes)` for what the reader moves, `onComplaint(sentence)` for what cannot be.
+  function build(form, onChange, onComplaint) {
+    const fields = {};
+    for (const [title, names] of GROUPS) {
+      const group = document.createElement("fieldset");
+      group.innerHTML = `<legend>${title}</legend>`;
+      for (const name of names) {
+        const entry = NUMBERS.find((candidate) => candidate.name === name);
+        const row = slider(entry);
+        const [, field, range] = row.children;
+        range.addEventListener("input", () => onChange({ [name]: range.valueAsNumber }));
+        field.addEventListener("change", () => {
+          const value = readValue(entry, field.value);
+          if (value === null) onComplaint(complaint(entry, field.value));
+          else onChange({ [name]: value });
+        });
+        fields[name] = { field, range };
+        group.append(row);
+      }
+      if (title === "Mesh stiffness") group.append(reading(onChange));
+      form.append(group);
+    }
+    form.addEventListener("submit", (event) => event.preventDefault());
+    return (state) => show(form, fields, state);
+  }
+
+  function reading(onChange) {
+    const choice = document.createElement("div");
+    choice.className = "gp-choice";
+    choice.setAttribute("role", "radiogroup");
+    choice.setAttribute("aria-label", "Reading of the stiffness wave");
+    choice.innerHTML = ["printed", "swapped"]
+      .map((value) => `<label><input type="radio" name="reading" value="${value}"><span>${value}</span></label>`)
+      .join("");
+    choice.addEventListener("change", ({ target }) => onChange({ reading: target.value }));
+    return choice;
+  }
+
+  function show(form, fields, state) {
+    for (const [name, { field, range }] of Object.entries(fields)) {
+      if (range.shown === state[name]) continue;
+      range.shown = state[name];
+      range.value = state[name];
+      range.style.setProperty("--filled", `${(100 * (range.valueAsNumber - range.min)) / (range.max - range.min)}%`);
+      field.value = Number(state[name].toPrecision(6));
+    }
+    for (const radio of form.querySelectorAll("[name=reading]")) radio.checked = radio.value === state.reading;
+  }
+
+  return { build };
+});

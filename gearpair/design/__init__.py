@@ -1,0 +1,27 @@
+"""A real drive over its speeds: the chart, what changes it, the standard's factor beside it, rattle without load."""
+
+from gearpair.design.charts import speed_chart
+from gearpair.design.dynamic_factor import IsoDynamicFactor, iso_dynamic_factor
+from gearpair.design.idle import IdleRattle, idle_oscillator, idle_rattle
+from gearpair.design.jumps import Jump, find_jumps
+from gearpair.design.linear import LinearResponse, linear_response
+from gearpair.design.loads import measure_motion
+from gearpair.design.sensitivities import sensitivity
+from gearpair.design.verdicts import SpeedRange, speeds_to_avoid
+
+__all__ = [
+    "IdleRattle",
+    "IsoDynamicFactor",
+    "Jump",
+    "LinearResponse",
+    "SpeedRange",
+    "find_jumps",
+    "idle_oscillator",
+    "idle_rattle",
+    "iso_dynamic_factor",
+    "linear_response",
+    "measure_motion",
+    "sensitivity",
+    "speed_chart",
+    "speeds_to_avoid",
+]

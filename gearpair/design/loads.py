@@ -1,0 +1,96 @@
+"""What the teeth of a drive bear in one motion, in SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from gearpair.drive import GearDrive
+from gearpair.motion.measures import impact_measures
+from gearpair.motion.same_orbit import lies_on
+from gearpair.motion.settling import Status
+from gearpair.motion.steady import SteadyState
+from gearpair.motion.trajectories import trajectory
+
+# Name -> what it is, and its unit.
+MEASURES: Mapping[str, tuple[str, str]] = {
+    "dte_rms": ("rms of the dynamic transmission error about its mean", "um"),
+    "dte_peak_to_peak": ("peak to peak of the dynamic transmission error", "um"),
+    "mesh_force": ("largest mesh force", "N"),
+    "tooth_force": ("largest force on one pair of teeth", "N"),
+    "dynamic_factor": ("largest mesh force over the mean force", "1"),
+    "time_apart": ("share of the time without contact", "1"),
+    "impact_rate": ("impacts per second", "1/s"),
+    "impact_velocity": ("largest approach velocity at an impact", "mm/s"),
+}
+SAMPLES_PER_PERIOD = 256
+CHAOTIC_PERIODS = 200  # mesh periods over which a motion that is not periodic is measured
+
+
+def measure_motion(drive: GearDrive, state: SteadyState) -> dict[str, float]:
+    """The measures of a settled motion of `drive` by their names in `MEASURES`; nan for one that did not stay bounded.
+
+    Parameters
+    ----------
+    drive : GearDrive
+        Whose inertias, stiffness and backlash `state` is scaled with.
+    state : SteadyState
+        Of the drive's oscillator, at any speed.
+
+    Notes
+    -----
+    Forces on the mesh, times apart, impacts and velocities are exact; the dynamic transmission error and the force on
+    one pair of teeth are of 256 samples a mesh period.
+
+    Examples
+    --------
+    >>> from gearpair.motion import steady_state
+    >>> drive = GearDrive(pinion_teeth=34, pinion_inertia_kg_m2=2e-3, gear_inertia_kg_m2=2e-3,
+    ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0,
+    ...     pinion_speed_rpm=2500.0, backlash_um=100.0, transmission_error_um=10.0,
+    ...     mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
+    >>> loads = measure_motion(drive, steady_state(drive.oscillator()))
+    >>> round(loads["mesh_force"]), round(loads["dynamic_factor"], 2), round(loads["impact_rate"])
+    (8555, 3.41, 2394)
+    """
+    if state.status in (Status.ESCAPED, Status.CAPPED, Status.NOT_RUN):
+        return dict.fromkeys(MEASURES, np.nan)
+    osc, unit_um = state.oscillator, drive.half_backlash_m * 1e6
+    n_periods = state.period or CHAOTIC_PERIODS
+    found = impact_measures(state, n_periods=n_periods)
+    x, v = state.points[0].tolist()
+    motion = trajectory(osc, x, v, n_periods, samples_per_period=SAMPLES_PER_PERIOD)
+    error = (motion.x + osc.error(motion.tau))[:-1] * unit_um
+    per_second = osc.mesh_frequency * drive.natural_frequency_rad_s / (2.0 * np.pi)
+    return {
+        "dte_rms": float(error.std()),
+        "dte_peak_to_peak": float(np.ptp(error)),
+        "mesh_force": max(found.drive_force, found.coast_force) * drive.unit_force_n,
+        "tooth_force": _largest_tooth_force(drive, state, motion.x[:-1]),
+        "dynamic_factor": found.load_factor,
+        "time_apart": found.flight_share,
+        "impact_rate": (found.drive_impacts + found.coast_impacts) * per_second,
+        "impact_velocity": max(found.drive_velocity, found.coast_velocity)
+        * drive.half_backlash_m
+        * drive.natural_frequency_rad_s
+        * 1e3,
+    }
+
+
+def _largest_tooth_force(drive: GearDrive, state: SteadyState, x: np.ndarray) -> float:
+    """The largest share of the mesh force that a pair of teeth carries, at samples over whole mesh periods."""
+    if drive.mesh is None:
+        return np.nan
+    fraction = np.arange(SAMPLES_PER_PERIOD) / SAMPLES_PER_PERIOD
+    share = drive.mesh.load_share.max(axis=0)
+    most = share[(fraction * len(share)).astype(int)] * state.oscillator.stiffness(fraction)
+    pressed = np.clip(np.abs(x) - 1.0, 0.0, None).reshape(-1, SAMPLES_PER_PERIOD)
+    return float((pressed * most).max()) * drive.unit_force_n
+
+
+def same_motion(a: SteadyState, b: SteadyState) -> bool:
+    """Whether two settled motions of one oscillator are one; those that are not periodic are, by their status."""
+    if a.status != b.status or a.period != b.period:
+        return False
+    return a.period is None or lies_on(a.points[0], b.points)

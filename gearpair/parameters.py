@@ -1,0 +1,158 @@
+"""A chapter's parameters, checked before anything is computed: ranges and relations by the library's own checks.
+
+The cell after a chapter's parameters calls `check_parameters`. papermill runs it first, whether values come from its
+command line or from a file; `gearpair run` runs the same cell before it starts a kernel.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Mapping
+from dataclasses import fields
+from difflib import get_close_matches
+from functools import partial
+from typing import Any
+
+from gearpair._checks import check_count, check_number
+from gearpair.drive import GearDrive
+from gearpair.motion.trajectories import check_start
+from gearpair.oscillator import Oscillator
+from gearpair.stiffness import StiffnessWave
+from gearpair.teeth import SpurPair, mesh_stiffness
+
+OSCILLATOR = tuple(field.name for field in fields(Oscillator) if field.name != "stiffness")
+WAVE = ("contact_ratio", "a", "b", "reading")
+PAIR = tuple(field.name for field in fields(SpurPair))
+MESH = ("root", "foundation", "coupling")
+DRIVE = (
+    *("pinion_torque_nm", "backlash_um", "backlash", "transmission_error_um", "damping_ratio"),
+    *("pinion_added_inertia_kg_m2", "gear_added_inertia_kg_m2"),
+)
+ANY_SPEED = 1000.0  # rpm, of a drive that is checked for all else
+STANDS_FOR = {"lowest": "mesh_frequency", "highest": "mesh_frequency", "chaos_near": "mesh_frequency"}
+STARTS = ("first_start", "second_start")
+FEWEST = {
+    "n_values": 2,
+    "n_fine": 2,
+    "n_x": 2,
+    "n_v": 2,
+    "n_speeds": 2,
+    "n_transient": 0,
+    "n_starts": 0,
+}  # of another n_... : 1
+INJECTED = "# Parameters"  # how papermill begins the cell that it puts in
+
+
+def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
+    """Check a chapter's parameters by the objects that they feed; they are told by their names.
+
+    Parameters
+    ----------
+    values : mapping of str to object
+        The parameters; a chapter gives ``globals()``, of which only the names that are known here are looked at.
+    **stands_for
+        For names that mean different things in different chapters: the scalar of the oscillator that one is a value
+        of, ``highest="damping_ratio"``. Without it, ``lowest`` and ``highest`` are mesh frequencies.
+
+    Raises
+    ------
+    ValueError
+        Naming the parameter, its value and what is allowed. In a notebook that papermill runs, also for a parameter
+        that the chapter does not have.
+
+    Examples
+    --------
+    >>> check_parameters({"damping_ratio": 0.05, "lowest": 0.7, "highest": 1.7, "n_values": 101})
+    >>> check_parameters({"lowest": 1.7, "highest": 0.7})
+    Traceback (most recent call last):
+        ...
+    ValueError: lowest must be below highest, got lowest = 1.7 and highest = 0.7
+    """
+    _check_names(values)
+    wave = StiffnessWave.rectangular(**_chosen(values, WAVE))
+    osc = Oscillator(**_chosen(values, OSCILLATOR), stiffness=wave)
+    if pair := _chosen(values, PAIR):
+        mesh_stiffness(SpurPair(**pair), **_chosen(values, MESH))
+    if "pinion_torque_nm" in values:
+        GearDrive.from_pair(SpurPair(**pair), pinion_speed_rpm=ANY_SPEED, **_chosen(values, DRIVE))
+    for name, scalar in {**STANDS_FOR, **stands_for}.items():
+        if name in values:
+            _check_as(name, partial(osc.replace, **{scalar: values[name]}))
+    for low, high in (("lowest", "highest"), ("lowest_rpm", "highest_rpm")):
+        first, last = values.get(low), values.get(high)
+        if first is not None and last is not None and not first < last:
+            raise ValueError(f"{low} must be below {high}, got {low} = {first} and {high} = {last}")
+    for name, value in values.items():
+        _check_alone(name, value)
+
+
+def _chosen(values: Mapping[str, Any], names: tuple[str, ...]) -> dict[str, Any]:
+    return {name: values[name] for name in names if name in values}
+
+
+def _check_as(name: str, check: Callable[[], object]) -> None:
+    """Let an error of the library say which parameter of the chapter it is about."""
+    try:
+        check()
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
+
+
+def _check_alone(name: str, value: Any) -> None:
+    """What can be said of one parameter by itself."""
+    if name.startswith("n_") or name == "longest":
+        if isinstance(value, int | float):  # a chapter may call an array of its own n_...
+            check_count(name, value, at_least=FEWEST.get(name, 1))
+    elif name in STARTS:
+        if len(value) != 2:
+            raise ValueError(f"{name} must be the two numbers X and X', got {value!r}")
+        _check_as(name, lambda: check_start(*value))
+    elif name in ("start_x", "start_v"):
+        check_number(name, value)
+    elif name in ("x_reach", "v_reach") or (name in ("lowest_rpm", "highest_rpm") and value is not None):
+        check_number(name, value, above=0.0)
+    elif name == "narrowest":
+        check_number(name, value, at_least=0.0)
+    elif name == "tolerances":
+        if not value:
+            raise ValueError("tolerances must be at least one number, got none")
+        for each in value:
+            check_number(name, each, above=0.0, below=1.0)
+    elif name == "phase_step" and 180 % check_count(name, value):
+        raise ValueError(f"phase_step must be a divisor of 180 degrees, got {value}")
+
+
+def unknown_name(name: str, known: Mapping[str, Any] | list[str], of: str) -> str:
+    """One sentence for a name that `of` does not have: the one that was meant, or all there are.
+
+    Examples
+    --------
+    >>> unknown_name("damping_ration", ["a", "damping_ratio"], "stiffness")
+    "stiffness has no parameter 'damping_ration'; did you mean 'damping_ratio'?"
+    """
+    close = get_close_matches(name, [*known], 1)
+    help_ = f"did you mean {close[0]!r}?" if close else f"it has {', '.join(known)}"
+    return f"{of} has no parameter {name!r}; {help_}"
+
+
+def _check_names(values: Mapping[str, Any]) -> None:
+    """Refuse a parameter that papermill put in and the chapter's own cell does not declare; papermill only warns."""
+    declared: set[str] = set()
+    for text in values.get("In", []):  # IPython's list of the cells run so far
+        if text.startswith(INJECTED):
+            for statement in ast.parse(text).body:
+                for target in statement.targets if isinstance(statement, ast.Assign) else []:
+                    if isinstance(target, ast.Name) and declared and target.id not in declared:
+                        raise ValueError(unknown_name(target.id, sorted(declared), "this chapter"))
+        else:
+            declared = _annotated(text) or declared
+
+
+def _annotated(text: str) -> set[str]:
+    """The names that a cell of annotated literals declares; none for any other cell."""
+    try:
+        body = ast.parse(text).body
+    except SyntaxError:  # a cell may hold a magic of IPython
+        return set()
+    names = {s.target.id for s in body if isinstance(s, ast.AnnAssign) and isinstance(s.target, ast.Name)}
+    return names if len(names) == len(body) else set()

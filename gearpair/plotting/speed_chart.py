@@ -1,0 +1,251 @@
+"""Pictures of a drive over its speeds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.patches import Patch
+
+from gearpair.design import IdleRattle, IsoDynamicFactor
+from gearpair.motion.names import IMPACT_NAMES
+from gearpair.plotting.planes import IMPACT_COLOURS
+from gearpair.plotting.style import INK, new_axes
+
+# Lines need more contrast than areas: contact kept, lost on one side, both flanks struck.
+STATE_INK: Mapping[str, str] = {"none_drive": "#1F3A5F", "single_drive": "#D55E00", "double": "#54278F"}
+OTHER_INK = "#8C8577"
+GREY = "#9A9A9A"
+LEAP = 0.25  # change from one speed to the next, of the largest factor, that is drawn as a jump
+STRIP = 0.07  # height of a run's strip of impact states, in shares of the axes
+CHANGES: Mapping[str, str] = {
+    "pinion_torque_nm": "torque",
+    "backlash_um": "backlash",
+    "transmission_error_um": "transmission error",
+    "damping_ratio": "damping ratio",
+    "addendum": "addendum (contact ratio)",
+}
+OUTCOMES: Mapping[str, str] = {
+    "dynamic_factor": "largest dynamic factor",
+    "mesh_force": "largest mesh force (N)",
+    "time_apart": "largest share of time apart",
+    "impact_range": "speeds with impacts (rpm)",
+}
+
+
+def dynamic_factors(
+    chart: xr.Dataset, iso: IsoDynamicFactor | None = None, ax: Axes | None = None, *, jumps: bool = True
+) -> Axes:
+    """The dynamic factor over the speed, run up and down, with jumps, impact states, and what is usually taken.
+
+    Parameters
+    ----------
+    chart : xarray.Dataset
+        Of `gearpair.design.speed_chart`.
+    iso : IsoDynamicFactor, optional
+        Drawn in grey beside the linear response.
+    ax : Axes, optional
+    jumps : bool
+        Mark and name the located jumps.
+
+    Returns
+    -------
+    Axes
+        With one line for each run, and strips of the impact states above it.
+    """
+    ax = new_axes(ax, 4.6)
+    speed = chart.speed.values
+    factor = chart.dynamic_factor
+    top = np.nanmax([np.nanmax(factor.values), 1.2])
+    linear = chart.linear_factor.values  # cut off where the strips begin
+    linear = np.where(linear < 0.8 + (top - 0.8) * 1.12, linear, np.nan)
+    ax.plot(speed, linear, color=GREY, linewidth=1.0, label="linear response", zorder=1)
+    if iso is not None:
+        ax.plot(iso.speed_rpm, iso.k_v, color=GREY, linestyle=(0, (5, 2)), linewidth=1.3, label="ISO 6336-1, $K_v$")
+    worst, shown = factor.sel(run="worst").values, np.zeros(len(speed), bool)
+    for run in ("up", "down"):
+        shown |= np.isclose(worst, factor.sel(run=run).values, rtol=1e-6, equal_nan=True)
+    if not shown.all():
+        ax.plot(
+            speed[~shown], worst[~shown], linestyle="", marker="o", markersize=3, markerfacecolor="none",
+            color=OTHER_INK, label="worst found from other starts",
+        )  # fmt: skip
+    for run, style, width in (("up", "-", 1.8), ("down", (0, (2.5, 1.2)), 1.4)):
+        values, states = factor.sel(run=run).values, chart.impact_state.sel(run=run).values
+        ax.plot([], [], color=INK, linestyle=style, linewidth=width, label=f"run {run}")
+        _by_state(ax, speed, values, states, style, width)
+    if jumps:
+        _mark_jumps(ax, chart)
+    ax.set(xlabel="speed of the pinion (rpm)", ylabel="largest mesh force / mean force", xlim=(speed[0], speed[-1]))
+    ax.set_ylim(0.8, 0.8 + (top - 0.8) * 1.35)
+    _strips(ax, chart)
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.02), ncols=5, handlelength=2.2, borderaxespad=0.0, fontsize=8)
+    return ax
+
+
+def _by_state(ax: Axes, speed: np.ndarray, values: np.ndarray, states: np.ndarray, style: object, width: float) -> None:
+    """A line that is broken where the run jumps, coloured by the impact state at each speed's left end."""
+    jump = np.abs(np.diff(values)) > LEAP * np.nanmax(values)
+    first = 0
+    for i in range(1, len(speed) + 1):
+        if i < len(speed) and states[i] == states[first] and not jump[i - 1]:
+            continue
+        last = i + 1 if i < len(speed) and not jump[i - 1] else i  # as far as the next piece, unless the run jumps
+        ax.plot(
+            speed[first:last], values[first:last], linestyle=style, linewidth=width, zorder=3,
+            color=STATE_INK.get(str(states[first]), OTHER_INK), solid_capstyle="butt",
+        )  # fmt: skip
+        first = i
+
+
+def _mark_jumps(ax: Axes, chart: xr.Dataset) -> None:
+    """An arrow from the motion that a run leaves to the one it goes to, with the speed beside it."""
+    speed = chart.speed.values
+    for at, run in zip(chart.jump_speed.values, chart.jump_run.values, strict=True):
+        values = chart.dynamic_factor.sel(run=str(run)).values
+        after = int(np.clip(np.searchsorted(speed, at), 1, len(speed) - 1))
+        ends = values[[after - 1, after]] if run == "up" else values[[after, after - 1]]
+        if not abs(ends[1] - ends[0]) > LEAP * np.nanmax(values):
+            continue
+        ax.annotate(
+            "", (at, ends[1]), (at, ends[0]), arrowprops={"arrowstyle": "-|>", "color": "#333333", "linewidth": 0.9}
+        )
+        side = 1 if run == "up" else -1
+        ax.annotate(
+            f"{at:.0f}", (at, ends.mean()), (4 * side, 0), textcoords="offset points", fontsize=8,
+            ha="left" if side > 0 else "right", va="center", color="#333333",
+        )  # fmt: skip
+
+
+def _strips(ax: Axes, chart: xr.Dataset) -> None:
+    """The impact state of each run as a strip along the top."""
+    edges = _edges(chart.speed.values)
+    present = []
+    for k, run in enumerate(("up", "down")):
+        bottom = 1.0 - (k + 1) * STRIP
+        for left, right, state in zip(edges[:-1], edges[1:], chart.impact_state.sel(run=run).values, strict=True):
+            present.append(str(state))
+            ax.axvspan(
+                left, right, bottom, bottom + 0.85 * STRIP, color=IMPACT_COLOURS[str(state)], linewidth=0, zorder=4
+            )
+        ax.text(
+            0.004, bottom + 0.4 * STRIP, f"run {run}", transform=ax.transAxes, fontsize=7, va="center", color="#333333",
+            zorder=5,
+        )  # fmt: skip
+    handles = [
+        Patch(facecolor=colour, edgecolor="#999999", linewidth=0.5, label=IMPACT_NAMES[state])
+        for state, colour in IMPACT_COLOURS.items()
+        if state in present
+    ]
+    ax.add_artist(
+        ax.legend(
+            handles=handles, loc="upper right", bbox_to_anchor=(1.0, 1.0 - 2 * STRIP), fontsize=7.5, ncols=len(handles)
+        )
+    )
+
+
+def _edges(speed: np.ndarray) -> np.ndarray:
+    middles = 0.5 * (speed[1:] + speed[:-1])
+    return np.concatenate([[speed[0]], middles, [speed[-1]]])
+
+
+def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]:
+    """What the teeth bear over the speed: the dynamic transmission error, and impacts, of both runs.
+
+    Parameters
+    ----------
+    chart : xarray.Dataset
+        Of `gearpair.design.speed_chart`.
+    axes : tuple of two Axes
+
+    Returns
+    -------
+    tuple of two Axes
+    """
+    left, right = axes
+    speed = chart.speed.values
+    left.plot(speed, chart.linear_rms.values, color=GREY, linewidth=1.0, label="linear response")
+    for run, style in (("up", "-"), ("down", (0, (2.5, 1.2)))):
+        chosen = chart.sel(run=run)
+        left.plot(speed, chosen.dte_rms.values, color=INK, linestyle=style, label=f"run {run}")
+        right.plot(speed, chosen.impact_velocity.values, color=INK, linestyle=style, label=f"run {run}")
+    left.set(xlabel="speed of the pinion (rpm)", ylabel="dynamic transmission error, rms (µm)")
+    right.set(xlabel="speed of the pinion (rpm)", ylabel="largest impact velocity (mm/s)")
+    for ax in axes:
+        ax.set_xlim(speed[0], speed[-1])
+        ax.set_ylim(bottom=0.0)
+    left.legend()
+    return axes
+
+
+def tornado(
+    found: xr.Dataset, outcome: str = "dynamic_factor", ax: Axes | None = None, *, sort_by: str | None = None
+) -> Axes:
+    """What each change does to the worst of the speed range: one bar a change, the strongest on top.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        Of `gearpair.design.sensitivity`.
+    outcome : {"dynamic_factor", "mesh_force", "time_apart", "impact_range"}
+    ax : Axes, optional
+    sort_by : str, optional
+        The outcome that the bars are sorted by, `outcome` itself when not given.
+
+    Returns
+    -------
+    Axes
+    """
+    ax = new_axes(ax, 2.6)
+    values, base = found[outcome].values, float(found[f"base_{outcome}"])
+    sorting = sort_by or outcome
+    order = np.argsort(np.abs(found[sorting].values - float(found[f"base_{sorting}"])).max(axis=1).round(9))
+    low_colour, high_colour = "#56B4E9", "#E69F00"
+    for place, k in enumerate(order):
+        for end, colour in ((0, low_colour), (1, high_colour)):
+            ax.barh(place, values[k, end] - base, left=base, height=0.62, color=colour, zorder=2)
+            beyond = values[k, end] >= base
+            ax.annotate(
+                f"{found.value.values[k, end]:.3g}", (values[k, end], place), (3 if beyond else -3, 5 - 10 * end),
+                textcoords="offset points", fontsize=7, va="center", ha="left" if beyond else "right",
+            )  # fmt: skip
+    ax.axvline(base, color="#333333", linewidth=0.9, zorder=3)
+    names = [str(found.change.values[k]) for k in order]
+    ax.set_yticks(range(len(names)), [CHANGES.get(name, name) for name in names])
+    ax.set_xlabel(OUTCOMES[outcome])
+    ax.margins(x=0.12)
+    ax.legend(
+        handles=[Patch(color=low_colour, label="lower"), Patch(color=high_colour, label="higher")],
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2,
+    )  # fmt: skip
+    return ax
+
+
+def rattle(found: IdleRattle, ax: Axes | None = None) -> Axes:
+    """Impacts of an idle gear over the speed, and where its inertia torque exceeds the drag.
+
+    Parameters
+    ----------
+    found : IdleRattle
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = new_axes(ax, 2.8)
+    ax.plot(found.speed_rpm, found.impact_velocity, color=INK)
+    ax.set(xlabel="speed of the pinion (rpm)", ylabel="largest impact velocity (mm/s)")
+    ax.set_xlim(found.speed_rpm[0], found.speed_rpm[-1])
+    ax.set_ylim(bottom=0.0)
+    quiet = found.rattle_ratio < 1.0
+    if quiet.any() and not quiet.all():
+        onset = float(np.interp(1.0, found.rattle_ratio, found.speed_rpm))
+        ax.axvline(onset, color=GREY, linestyle=(0, (5, 2)), linewidth=1.0)
+        ax.annotate(
+            "inertia torque = drag", (onset, 1.0), (4, -4), xycoords=("data", "axes fraction"),
+            textcoords="offset points", va="top", fontsize=8, color="#555555",
+        )  # fmt: skip
+    return ax

@@ -1,0 +1,103 @@
+"""How a chapter was made, written at its end; and an executed notebook without what names the machine."""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+from collections.abc import Mapping
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+import nbformat
+from nbformat.v4 import new_markdown_cell
+
+from gearpair.study.chapters import Chapter
+
+TOLD = ("gearpair", "numpy", "scipy", "numba", "matplotlib", "xarray", "papermill")
+RECORD = "how-it-was-made"  # the tag and the id of the last cell
+
+
+def circumstances(notebook: Path, seconds: float) -> dict[str, Any]:
+    """What is told of a run: its time, the versions, the revision of the checkout and the processor."""
+    return {
+        "seconds": round(seconds, 1),
+        "versions": {"Python": platform.python_version()} | versions(TOLD),
+        "revision": revision(notebook.parent),
+        "processor": f"{processor()}, {os.cpu_count()} cores",
+    }
+
+
+def versions(packages: tuple[str, ...]) -> dict[str, str]:
+    """The installed versions of `packages`, of those that are installed."""
+    found = {}
+    for package in packages:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            continue
+    return found
+
+
+def revision(directory: Path) -> str:
+    """The git revision that `directory` is at, and whether something was changed since; none outside a checkout."""
+    command = ["git", "-C", str(directory), "describe", "--always", "--abbrev=12", "--dirty= with changes"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError:
+        return "none"
+    return done.stdout.strip() or "none"
+
+
+def processor() -> str:
+    """The processor's name as the system gives it."""
+    try:
+        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    except OSError:
+        pass
+    return platform.processor() or platform.machine()
+
+
+def recorded(
+    notebook: nbformat.NotebookNode, chapter: Chapter, values: Mapping[str, Any], made: Mapping[str, Any]
+) -> nbformat.NotebookNode:
+    """The executed `notebook` with how it was made at its end.
+
+    Times of the cells, directories and whatever was written to stderr are taken out: readers can download it, and
+    what is left is the same at every run but for the record, which stays in the cell and in ``metadata.gearpair``.
+    """
+    notebook.metadata = nbformat.from_dict(
+        {
+            "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+            "language_info": {"name": "python"},
+            "gearpair": {**made, "chapter": chapter.name, "parameters": dict(values)},
+        }
+    )
+    for cell in notebook.cells:
+        for key in ("papermill", "execution"):
+            cell.metadata.pop(key, None)
+        if "injected-parameters" in cell.metadata.get("tags", []):
+            cell.id = "injected-parameters"
+        if cell.cell_type == "code":
+            cell.outputs = [output for output in cell.outputs if output.get("name") != "stderr"]
+    cell = new_markdown_cell(_record(chapter, values, made), id=RECORD, metadata={"tags": [RECORD]})
+    notebook.cells = [each for each in notebook.cells if RECORD not in each.metadata.get("tags", [])] + [cell]
+    return notebook
+
+
+def _record(chapter: Chapter, values: Mapping[str, Any], made: Mapping[str, Any]) -> str:
+    changed = {name: value for name, value in values.items() if value != chapter.defaults.get(name)}
+    parameters = ", ".join(f"`{name} = {value!r}`" for name, value in changed.items())
+    rows = {
+        "parameters": f"{parameters}; the others as at the head" if changed else "as at the head",
+        "versions": ", ".join(f"{name} {number}" for name, number in made["versions"].items()),
+        "revision": made["revision"],
+        "run time": f"{made['seconds']:.0f} s",
+        "processor": made["processor"],
+        "run it yourself": "`pip install` a checkout of gearpair (`pip install .` in it), then run this notebook",
+    }
+    table = "\n".join(f"| {name} | {text} |" for name, text in rows.items())
+    return f":::{{admonition}} How this page was made\n:class: dropdown\n\n| | |\n|---|---|\n{table}\n:::"

@@ -1,0 +1,91 @@
+"""Whether the stored outputs survive what should not change them: another processor, one thread, other rounding."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import nbformat
+
+from gearpair.study.book import Book, stable_notebook
+from gearpair.study.chapters import Chapter
+from gearpair.study.execution import execute
+
+NUDGE = 1.0 + 1e-12
+NUDGED = "parameters changed by 1e-12"
+# What the environment of the kernel is changed to.
+CONDITIONS: dict[str, dict[str, str]] = {
+    "a generic processor": {"NUMBA_CPU_NAME": "generic"},
+    "one thread": {"NUMBA_NUM_THREADS": "1"},
+    "no fused multiply-add": {"GEARPAIR_FMA": "0"},
+    NUDGED: {},
+}
+NOT_COMPARED = "nbval-ignore-output"
+
+
+def nudged(chapter: Chapter) -> dict[str, Any]:
+    """The float parameters of a chapter, each changed by 1e-12 of itself; 0 stays 0."""
+    values: dict[str, Any] = {}
+    for parameter in chapter.parameters:
+        if isinstance(parameter.default, float):
+            values[parameter.name] = parameter.default * NUDGE
+        elif parameter.annotation == "list[float]":
+            values[parameter.name] = [value * NUDGE for value in parameter.default]
+    return values
+
+
+@contextmanager
+def environment(changes: Mapping[str, str]) -> Iterator[None]:
+    """The process's environment, which kernels inherit, changed for a while."""
+    before = {name: os.environ.get(name) for name in changes}
+    os.environ.update(changes)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                os.environ.pop(name, None)
+            else:
+                os.environ[name] = value
+
+
+def changed_cells(chapter: Chapter, condition: str) -> list[int]:
+    """The code cells (counted from 1) of a chapter whose stored outputs differ when it is run under a condition.
+
+    Cells that nbval does not compare are not compared here either.
+    """
+    values = nudged(chapter) if condition == NUDGED else {}
+    with tempfile.TemporaryDirectory() as scratch, environment(CONDITIONS[condition]):
+        executed = execute(chapter, Path(scratch) / chapter.path.name, values, progress=False)
+    executed.cells = [cell for cell in executed.cells if "injected-parameters" not in cell.metadata.get("tags", [])]
+    stored = nbformat.read(chapter.path, as_version=4)
+    now = stable_notebook(chapter.path, executed)
+    pairs = [(a, b) for a, b in zip(stored.cells, now.cells, strict=True) if a.cell_type == "code"]
+    return [
+        number
+        for number, (a, b) in enumerate(pairs, start=1)
+        if NOT_COMPARED not in a.metadata.get("tags", []) and _compared(a) != _compared(b)
+    ]
+
+
+def _compared(cell: nbformat.NotebookNode) -> list[tuple[str, Any]]:
+    """What a cell put out, less the numbers that count executions."""
+    return [(output.output_type, output.get("data", output.get("text"))) for output in cell.outputs]
+
+
+def check_stability(book: Book, names: tuple[str, ...] = ()) -> Iterator[tuple[str, str, list[int]]]:
+    """Run chapters, all when none is named, under every condition.
+
+    Yields
+    ------
+    (str, str, list of int)
+        Chapter, condition, and the code cells whose compared outputs changed.
+    """
+    for chapter in [book.chapter(name) for name in names] or book.chapters():
+        for condition in CONDITIONS:
+            if condition != NUDGED or nudged(chapter):
+                yield chapter.name, condition, changed_cells(chapter, condition)

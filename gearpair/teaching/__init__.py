@@ -1,0 +1,25 @@
+"""What the course's assignments use: a gear pair for every student, and marks for what they answer.
+
+Students import `personal_pair`, `personal_oscillator` and `personal_drive`. The tests of an assignment count with
+`Marks`. The grader takes the answers out of a student's notebook by `report` and `read_report`: plain data, nothing
+that runs.
+"""
+
+from gearpair.teaching.answers import Unreadable, read_report, report
+from gearpair.teaching.drawings import Curve, Drawing, drawing
+from gearpair.teaching.marks import Marks
+from gearpair.teaching.personal import check_student_id, personal_drive, personal_oscillator, personal_pair
+
+__all__ = [
+    "Curve",
+    "Drawing",
+    "Marks",
+    "Unreadable",
+    "check_student_id",
+    "drawing",
+    "personal_drive",
+    "personal_oscillator",
+    "personal_pair",
+    "read_report",
+    "report",
+]

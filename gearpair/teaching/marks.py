@@ -1,0 +1,212 @@
+"""Marks for one graded cell, item by item, each with a sentence that the student can use."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from numbers import Real
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair.teaching.answers import Unreadable
+from gearpair.teaching.drawings import Curve, drawing
+
+HALF = 0.5
+COVERED = 0.95  # of the range asked for, to count as drawn
+AGREEING = 0.95  # of the points in it, to count as right: a point on a jump may be on either side
+
+
+class Marks:
+    """The marks of one graded cell.
+
+    Its `repr` is what nbgrader reads: the total, once something has been marked. Before that (in the student's
+    notebook, which has no hidden tests) it says whether the answers are there at all.
+
+    Examples
+    --------
+    >>> marks = Marks()
+    >>> marks.number("base pitch", 8.86, 8.8564, within=1e-3)
+    base pitch: right (1 of 1)
+    >>> marks.number("stiffness", 3.9e8, 390.0, marks=2)
+    stiffness: right but for a power of ten, look at the unit (1 of 2)
+    >>> marks
+    2
+    """
+
+    def __init__(self) -> None:
+        self.total = 0.0
+        self.marked = False
+        self.missing: list[str] = []
+
+    def __repr__(self) -> str:
+        if self.marked:
+            return f"{self.total:g}"
+        return "0" if self.missing else "every answer asked for is there; whether they are right, the grading will tell"
+
+    def expect(self, **answers: Any) -> None:
+        """Say which answers are still missing: the part of a test that a student sees.
+
+        Parameters
+        ----------
+        **answers
+            By their names; None, or an ellipsis, is a missing one.
+        """
+        self.missing = [name for name, value in answers.items() if value is None or value is ...]
+        for name in self.missing:
+            print(f"{name}: no answer yet")
+
+    def number(
+        self, name: str, given: Any, truth: float, *, marks: float = 1.0, within: float = 1e-3, nearly: float = 0.0
+    ) -> None:
+        """Mark a number.
+
+        Parameters
+        ----------
+        name : str
+            Of the answer, for the sentence.
+        given : object
+            The answer.
+        truth : float
+        marks : float
+            For the right number; half of it where it is off by a power of ten alone.
+        within : float
+            Largest relative error of a right answer (absolute, where the truth is 0).
+        nearly : float
+            Largest relative error that still earns half: a step of a grid, say.
+        """
+        value = _as_number(given)
+        if value is None:
+            self._give(name, _instead_of("a number", given), 0.0, marks)
+        elif _near(value, truth, within):
+            self._give(name, "right", marks, marks)
+        elif _near(value, truth, nearly):
+            self._give(name, "close, but not right", HALF * marks, marks)
+        elif any(_near(value * 10.0**power, truth, within) for power in range(-12, 13)):
+            self._give(name, "right but for a power of ten, look at the unit", HALF * marks, marks)
+        else:
+            self._give(name, "not the right number", 0.0, marks)
+
+    def same(self, name: str, given: Any, truth: object, *, marks: float = 1.0) -> None:
+        """Mark a word, a whole number or a truth value: right or not.
+
+        Parameters
+        ----------
+        name : str
+        given, truth : object
+            Texts are compared without regard to capitals and blanks around them.
+        marks : float
+        """
+        if given is None or isinstance(given, Unreadable):
+            self._give(name, _instead_of("an answer", given), 0.0, marks)
+        elif isinstance(truth, str):
+            right = isinstance(given, str) and given.strip().lower() == truth.lower()
+            self._give(name, "right" if right else "not the right word", marks * right, marks)
+        else:
+            value = given if isinstance(given, bool) else _as_number(given)
+            right = isinstance(given, bool) == isinstance(truth, bool) and value == truth
+            self._give(name, "right" if right else "not right", marks * right, marks)
+
+    def curve(
+        self,
+        name: str,
+        axes: Any,
+        truth: Callable[[NDArray[np.float64]], ArrayLike],
+        over: tuple[float, float],
+        *,
+        marks: float = 1.0,
+        within: float = 2e-3,
+        points: int = 20,
+    ) -> None:
+        """Mark one curve of a figure by the numbers behind it; the best of its curves counts.
+
+        Parameters
+        ----------
+        name : str
+        axes : Axes or Drawing
+        truth : callable
+            The right y for an array of x.
+        over : tuple of float
+            The range of x that the curve must cover.
+        marks : float
+            Half of it where the curve is right but covers less than the range, has too few points, or is off by a
+            power of ten.
+        within : float
+            Largest error, relative to the largest true value.
+        points : int
+            That the curve must have in the range.
+        """
+        drawn = drawing(axes)
+        if drawn is None:
+            self._give(name, _instead_of("a figure (an Axes)", axes), 0.0, marks)
+            return
+        shares = [_curve_share(curve, truth, over, within, points) for curve in drawn.curves]
+        best = max(shares, default=0.0)
+        sentence = {1.0: "right", HALF: "right in part: look at its range, its number of points and its unit"}
+        self._give(name, sentence.get(best, "no curve of the figure has the right values"), best * marks, marks)
+
+    def labels(self, name: str, axes: Any, *, marks: float = 1.0) -> None:
+        """Mark the labels of a figure's axes: half of the marks for each.
+
+        Parameters
+        ----------
+        name : str
+        axes : Axes or Drawing
+        marks : float
+        """
+        drawn = drawing(axes)
+        there = sum(bool(label.strip()) for label in (drawn.x_label, drawn.y_label)) if drawn else 0
+        self._give(name, ("none", "one of two", "both there")[there], HALF * there * marks, marks)
+
+    def _give(self, name: str, sentence: str, given: float, marks: float) -> None:
+        self.marked = True
+        self.total += given
+        print(f"{name}: {sentence} ({given:g} of {marks:g})")
+
+
+def _as_number(given: Any) -> float | None:
+    if isinstance(given, bool) or not isinstance(given, Real):
+        if isinstance(given, np.ndarray) and given.size == 1:
+            return _as_number(given.item())
+        return None
+    try:
+        value = float(given)
+    except OverflowError:
+        return None
+    return value if math.isfinite(value) else None
+
+
+def _near(value: float, truth: float, within: float) -> bool:
+    return abs(value - truth) <= within * (abs(truth) or 1.0)
+
+
+def _instead_of(wanted: str, given: Any) -> str:
+    if given is None:
+        return "no answer"
+    return f"{wanted} was asked for, not {given.kind if isinstance(given, Unreadable) else type(given).__name__}"
+
+
+def _curve_share(
+    curve: Curve,
+    truth: Callable[[NDArray[np.float64]], ArrayLike],
+    over: tuple[float, float],
+    within: float,
+    points: int,
+) -> float:
+    if curve.x.shape != curve.y.shape:
+        return 0.0
+    low, high = over
+    slack = 1e-9 * (high - low)
+    inside = np.isfinite(curve.x) & np.isfinite(curve.y) & (curve.x >= low - slack) & (curve.x <= high + slack)
+    x, y = curve.x[inside], curve.y[inside]
+    if x.size == 0:
+        return 0.0
+    right = np.asarray(truth(x), dtype=float)
+    full = x.size >= points and np.ptp(x) >= COVERED * (high - low)
+    enough = x.size >= 2 and np.ptp(x) >= 0.3 * (high - low)
+    largest = float(np.abs(right).max()) or 1.0
+    for power in (0, *range(-12, 0), *range(1, 13)):
+        if np.mean(np.abs(y * 10.0**power - right) <= within * largest) >= AGREEING:
+            return (1.0 if full and power == 0 else HALF) if enough else 0.0
+    return 0.0

@@ -1,0 +1,187 @@
+"""A gear pair, an oscillator and a drive for every student or group, from nothing but the id."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import re
+from typing import TypeVar
+
+from gearpair.drive import GearDrive
+from gearpair.oscillator import Oscillator
+from gearpair.stiffness import StiffnessWave
+from gearpair.teeth import SpurGear, SpurPair, mesh_stiffness
+
+Choice = TypeVar("Choice")
+ALLOWED = re.compile(r"[a-z0-9][a-z0-9._@-]{1,63}")
+STEEL_KG_M3 = 7850.0
+
+# With any of these the pair can be cut, and its motion has the structure that the assignments ask about.
+PINION_TEETH = tuple(range(27, 41))
+GEAR_TEETH = tuple(range(42, 64))
+MODULES_MM = (2.0, 2.5, 3.0, 4.0)
+FACE_WIDTHS_MM = (16.0, 20.0, 24.0, 28.0, 32.0)
+MEAN_FORCES = (0.108, 0.110, 0.112, 0.114, 0.116, 0.118, 0.120)
+ERROR_AMPLITUDES = (0.155, 0.160, 0.165, 0.170, 0.175)
+DAMPING_RATIOS = (0.064, 0.066, 0.068, 0.07, 0.072, 0.074)
+BACKLASHES_UM = (60.0, 80.0, 100.0, 120.0)
+MESH_FREQUENCY = 0.6
+
+
+def check_student_id(student_id: object) -> str:
+    """The id as everything else uses it: small letters, no blanks around it.
+
+    Parameters
+    ----------
+    student_id : str
+        Letters, digits and ``. _ @ -``, 2 to 64 of them, the first a letter or a digit.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    ValueError
+        For what cannot be an id, an empty one included.
+
+    Examples
+    --------
+    >>> check_student_id(" Ada.Lovelace ")
+    'ada.lovelace'
+    >>> check_student_id("")
+    Traceback (most recent call last):
+        ...
+    ValueError: student_id must be your own id (2 to 64 letters, digits, '.', '_', '@' or '-'), got ''
+    """
+    given = student_id.strip().lower() if isinstance(student_id, str) else ""
+    if not ALLOWED.fullmatch(given):
+        raise ValueError(
+            f"student_id must be your own id (2 to 64 letters, digits, '.', '_', '@' or '-'), got {student_id!r}"
+        )
+    return given
+
+
+def personal_pair(student_id: str) -> SpurPair:
+    """The gears of one student or group.
+
+    Parameters
+    ----------
+    student_id : str
+        As for `check_student_id`; capitals do not matter.
+
+    Returns
+    -------
+    SpurPair
+        Full-depth teeth at 20 degrees; teeth, module and face width depend on the id.
+
+    Raises
+    ------
+    ValueError
+        For what cannot be an id.
+
+    Examples
+    --------
+    >>> pair = personal_pair("ada")
+    >>> pair == personal_pair("Ada"), pair == personal_pair("grace")
+    (True, False)
+    """
+    who = check_student_id(student_id)
+    return SpurPair(
+        pinion_teeth=_pick(who, "pinion_teeth", PINION_TEETH),
+        gear_teeth=_pick(who, "gear_teeth", GEAR_TEETH),
+        module_mm=_pick(who, "module_mm", MODULES_MM),
+        face_width_mm=_pick(who, "face_width_mm", FACE_WIDTHS_MM),
+    )
+
+
+def personal_oscillator(student_id: str) -> Oscillator:
+    """The dimensionless oscillator of one student or group.
+
+    Its stiffness is the two-level wave of `personal_pair`; force, error and damping depend on the id.
+
+    Parameters
+    ----------
+    student_id : str
+        As for `check_student_id`.
+
+    Returns
+    -------
+    Oscillator
+        At the mesh frequency 0.6, where every student's pair has a motion that keeps contact.
+
+    Raises
+    ------
+    ValueError
+        For what cannot be an id.
+
+    Examples
+    --------
+    >>> osc = personal_oscillator("ada")
+    >>> round(osc.stiffness.mean, 12), osc.mesh_frequency
+    (1.0, 0.6)
+    """
+    who = check_student_id(student_id)
+    rectangle = mesh_stiffness(personal_pair(who)).rectangular()
+    return Oscillator(
+        mean_force=_pick(who, "mean_force", MEAN_FORCES),
+        error_amplitude=_pick(who, "error_amplitude", ERROR_AMPLITUDES),
+        damping_ratio=_pick(who, "damping_ratio", DAMPING_RATIOS),
+        mesh_frequency=MESH_FREQUENCY,
+        stiffness=StiffnessWave.rectangular(rectangle.contact_ratio, rectangle.a, rectangle.b),
+    )
+
+
+def personal_drive(student_id: str) -> GearDrive:
+    """The drive of one student or group in SI units: `personal_pair` with the numbers of `personal_oscillator`.
+
+    Parameters
+    ----------
+    student_id : str
+        As for `check_student_id`.
+
+    Returns
+    -------
+    GearDrive
+        The gears are steel rings from the bore to the pitch circle.
+
+    Raises
+    ------
+    ValueError
+        For what cannot be an id.
+
+    Examples
+    --------
+    >>> drive = personal_drive("ada")
+    >>> osc = personal_oscillator("ada")
+    >>> round(drive.oscillator().damping_ratio, 9) == osc.damping_ratio
+    True
+    """
+    who = check_student_id(student_id)
+    pair, osc = personal_pair(who), personal_oscillator(who)
+    blank = GearDrive(
+        pinion_teeth=pair.pinion_teeth,
+        pinion_inertia_kg_m2=_ring_inertia(pair.pinion, pair.face_width_mm),
+        gear_inertia_kg_m2=_ring_inertia(pair.gear, pair.face_width_mm),
+        pinion_base_radius_mm=pair.pinion.base_radius_mm,
+        gear_base_radius_mm=pair.gear.base_radius_mm,
+        backlash_um=_pick(who, "backlash_um", BACKLASHES_UM),
+        mean_stiffness_n_per_um=mesh_stiffness(pair).mean / 1e6,
+        pinion_torque_nm=0.0,
+        pinion_speed_rpm=1.0,
+        transmission_error_um=0.0,
+        damping_n_s_per_m=0.0,
+    )
+    return blank.with_oscillator(osc)
+
+
+def _pick(student_id: str, name: str, choices: tuple[Choice, ...]) -> Choice:
+    """One of `choices`, the same on every machine and with every version of every package."""
+    digest = hashlib.sha256(f"gearpair/{name}/{student_id}".encode()).digest()
+    return choices[int.from_bytes(digest[:8], "big") % len(choices)]
+
+
+def _ring_inertia(gear: SpurGear, face_width_mm: float) -> float:
+    """Mass moment of inertia of a steel ring between bore and pitch circle, kg m^2."""
+    outer, inner, width = gear.pitch_radius_mm * 1e-3, gear.bore_mm * 1e-3, face_width_mm * 1e-3
+    return 0.5 * math.pi * STEEL_KG_M3 * width * (outer**4 - inner**4)

@@ -1,0 +1,143 @@
+"""The static transmission error of a pair: from a relief drawn over the path of contact, or measured, to harmonics."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair._checks import check_count, check_number
+from gearpair.oscillator import Harmonic
+from gearpair.teeth.meshing import MeshStiffness
+
+Array = NDArray[np.float64]
+
+
+def tip_relief(mesh: MeshStiffness, pinion_um: float, gear_um: float, length: float) -> Array:
+    """What linear reliefs of both tips take off a pair of teeth along its path of contact.
+
+    Parameters
+    ----------
+    mesh : MeshStiffness
+    pinion_um, gear_um : float
+        Taken off normal to the flank at the tip, in micrometres. The gear's tip is in contact at the start of the
+        path, the pinion's at its end.
+    length : float
+        From the tip to where the relief begins, along the line of action in base pitches.
+
+    Returns
+    -------
+    ndarray, shape of ``mesh.path``
+        Micrometres, at least 0.
+
+    Raises
+    ------
+    ValueError
+        For an amount below 0, or a length that is not above 0 and at most the contact ratio.
+
+    Examples
+    --------
+    >>> from gearpair.teeth.meshing import mesh_stiffness
+    >>> from gearpair.teeth.spurpair import SpurPair
+    >>> relief = tip_relief(mesh_stiffness(SpurPair()), 20.0, 10.0, 0.4)
+    >>> round(float(relief[0]), 6), round(float(relief[-1]), 6), float(relief.min())
+    (10.0, 20.0, 0.0)
+    """
+    check_number("pinion_um", pinion_um, at_least=0.0)
+    check_number("gear_um", gear_um, at_least=0.0)
+    check_number("length", length, above=0.0, at_most=mesh.contact_ratio)
+    start = np.clip(1.0 - mesh.path / length, 0.0, None)
+    end = np.clip(1.0 - (mesh.contact_ratio - mesh.path) / length, 0.0, None)
+    return np.asarray(gear_um * start + pinion_um * end)
+
+
+def profile_error(mesh: MeshStiffness, deviation_um: ArrayLike, *, loaded: bool = True) -> Array:
+    """The static transmission error over a mesh period of teeth that all deviate from the involute alike.
+
+    Parameters
+    ----------
+    mesh : MeshStiffness
+    deviation_um : array_like, shape of ``mesh.path``
+        Material missing along the path of contact of one pair, both flanks together, in micrometres.
+    loaded : bool
+        Under enough load for every pair on its path to carry; or by the first pair that touches.
+
+    Returns
+    -------
+    ndarray, shape of ``mesh.phase``
+        Micrometres, positive where the pinion has to turn further.
+
+    Raises
+    ------
+    ValueError
+        For a deviation that is not of the path's shape, or not finite.
+
+    Notes
+    -----
+    Pairs of stiffness k_i and deviation d_i that all carry approach by D with ``sum of k_i (D - d_i) = W``, so that
+    ``W = k (D - e)`` with k the sum and ``e = sum of k_i d_i / k``: the mean of the deviations, weighted by the load
+    shares. Without load e is the least deviation of the pairs on their paths.
+
+    Examples
+    --------
+    >>> from gearpair.teeth.meshing import mesh_stiffness
+    >>> from gearpair.teeth.spurpair import SpurPair
+    >>> mesh = mesh_stiffness(SpurPair())
+    >>> error = profile_error(mesh, tip_relief(mesh, 20.0, 20.0, 0.4))
+    >>> round(float(error.min()), 6), round(float(error.max()), 1)
+    (0.0, 8.4)
+    """
+    deviation = np.asarray(deviation_um, dtype=float)
+    if deviation.shape != mesh.path.shape or not np.all(np.isfinite(deviation)):
+        raise ValueError(
+            f"deviation_um must be finite numbers over the path of contact, shape {mesh.path.shape}, "
+            f"got shape {deviation.shape}"
+        )
+    positions = mesh.phase + np.arange(len(mesh.load_share))[:, None]
+    each = np.interp(positions, mesh.path, deviation)
+    if loaded:
+        return np.asarray(np.sum(mesh.load_share * each, axis=0))
+    return np.asarray(np.where(mesh.load_share > 0.0, each, np.inf).min(axis=0))
+
+
+def error_harmonics(error_um: ArrayLike, n: int, *, n_periods: int = 1) -> tuple[Harmonic, ...]:
+    """The harmonics of a transmission error, computed or measured.
+
+    Parameters
+    ----------
+    error_um : array_like, shape (m,)
+        Samples at equal steps over `n_periods` mesh periods, the first at a start of one, the end point left out.
+    n : int
+        The highest order, below ``m / (2 n_periods)``.
+    n_periods : int
+        Mesh periods that the samples cover; what does not repeat with the mesh period averages out.
+
+    Returns
+    -------
+    tuple of Harmonic
+        Orders 1 to n: amplitude in the samples' unit, phase of ``amplitude sin(order theta + phase)``. The mean is left
+        out: it moves the teeth and excites nothing.
+
+    Raises
+    ------
+    ValueError
+        For samples that are not finite, or too few for `n`.
+
+    Examples
+    --------
+    >>> theta = 2 * np.pi * np.arange(64) / 64
+    >>> first, second = error_harmonics(3.0 + 8.0 * np.sin(theta + 0.5) + 2.0 * np.cos(2 * theta), 2)
+    >>> round(first.amplitude, 9), round(first.phase, 9), round(second.amplitude, 9), round(second.phase, 4)
+    (8.0, 0.5, 2.0, 1.5708)
+    """
+    samples = np.asarray(error_um, dtype=float)
+    n, n_periods = check_count("n", n), check_count("n_periods", n_periods)
+    if samples.ndim != 1 or not np.all(np.isfinite(samples)):
+        raise ValueError(f"error_um must be a sequence of finite numbers, got shape {samples.shape}")
+    if len(samples) <= 2 * n * n_periods:
+        raise ValueError(
+            f"error_um must be more than {2 * n * n_periods} samples for {n} harmonics, got {len(samples)}"
+        )
+    parts = 2.0 * np.fft.rfft(samples)[: n * n_periods + 1 : n_periods][1:] / len(samples)
+    return tuple(
+        Harmonic(order, float(np.abs(part)), float(np.angle(1j * part))) for order, part in enumerate(parts, start=1)
+    )

@@ -1,0 +1,127 @@
+"""How a submission is run: the student's cells in a kernel, the tests apart from it.
+
+nbgrader runs tests in the kernel of the student's code, where that code can replace whatever a test calls. Here the
+kernel is asked for the answers only, as plain data, and the tests run on these in this process, where no code of a
+student's ever runs. The text of a test comes from the gradebook, and the student's id from the submission's folder.
+"""
+
+import ast
+import builtins
+import contextlib
+import io
+import traceback
+
+import numpy as np
+from nbformat.v4 import new_output
+from nbgrader.api import Gradebook
+from nbgrader.preprocessors import Execute
+
+import gearpair as gp
+from gearpair import teaching
+
+MIME = "application/vnd.gearpair.answers+json"
+ASK = """
+def _report(names=%r):
+    from IPython.display import display
+    from gearpair.teaching import report
+    display({%r: report(names, globals())}, raw=True)
+_report()
+"""
+STOPPED = "not run: two cells before this one ran for longer than is allowed"
+MOST_STOPS = 2
+
+
+class GradeApart(Execute):
+    """nbgrader's Execute, with the tests taken out of the student's kernel."""
+
+    def preprocess(self, nb, resources, *args, **kwargs):
+        course = resources["nbgrader"]
+        self.student_id = course["student"]
+        self.stops = 0
+        self.answers = {}
+        with Gradebook(course["db_url"]) as gradebook:
+            notebook = gradebook.find_notebook(course["notebook"], course["assignment"])
+            graded = {cell.name for cell in notebook.grade_cells if cell.cell_type == "code"}
+            cells = [cell for cell in notebook.source_cells if cell.name in graded and cell.locked]
+            self.tests = {cell.name: cell.source for cell in cells}
+        self.given = {"np": np, "gp": gp, "teaching": teaching, "student_id": self.student_id}
+        self.wanted = answers_wanted(self.tests.values(), self.given)
+        nb, resources = super().preprocess(nb, resources, *args, **kwargs)
+        self._mark(nb)
+        return nb, resources
+
+    def preprocess_cell(self, cell, resources, index):
+        """Run a cell of the student's; in the place of a test, ask for the answers as they stand there."""
+        name = test_name(cell)
+        if cell.cell_type == "code" and name in self.tests:
+            cell.source = ASK % ([*self.wanted, "student_id"], MIME)
+            self._run(cell, resources, index)
+            self.answers[name] = self._reported(cell)
+            cell.source = self.tests[name]
+        elif cell.cell_type == "code":
+            self._run(cell, resources, index)
+        return cell, resources
+
+    def _run(self, cell, resources, index):
+        if self.stops >= MOST_STOPS:
+            cell.outputs = [new_output("error", ename="NotRun", evalue=STOPPED, traceback=[STOPPED])]
+            return
+        super().preprocess_cell(cell, resources, index)
+        self.stops += any(output.get("ename") == "CellTimeoutError" for output in cell.outputs)
+
+    def _reported(self, cell):
+        texts = [output.data[MIME] for output in cell.outputs if MIME in output.get("data", {})]
+        answers = teaching.read_report(texts[-1]) if texts and isinstance(texts[-1], str) else {}
+        typed = answers.pop("student_id", None)
+        if isinstance(typed, str) and typed.strip().lower() != self.student_id.strip().lower():
+            self.log.warning("the notebook of %s was worked on with the id %r", self.student_id, typed)
+        return {name: answers.get(name) for name in self.wanted}
+
+    def _mark(self, nb):
+        """Run the tests in the order of the assignment, wherever the student moved them; they share their variables."""
+        cells = {test_name(cell): cell for cell in nb.cells if cell.cell_type == "code"}
+        variables = dict(self.given)
+        for name, test in self.tests.items():
+            if name in cells:
+                variables |= {**self.answers[name], **self.given}
+                cells[name].outputs = run_test(test, variables)
+
+
+def test_name(cell):
+    """The name under which the gradebook may have a cell."""
+    return cell.metadata.get("nbgrader", {}).get("grade_id")
+
+
+def answers_wanted(tests, given):
+    """The variables that tests take from the student: those they read and no test defines."""
+    nodes = [node for test in tests for node in ast.walk(ast.parse(test))]
+    names = [node for node in nodes if isinstance(node, ast.Name)]
+    set_here = {node.id for node in names if not isinstance(node.ctx, ast.Load)}
+    set_here |= {node.arg for node in nodes if isinstance(node, ast.arg)} | set(given)
+    read = {node.id for node in names if isinstance(node.ctx, ast.Load)}
+    return sorted(name for name in read - set_here if not hasattr(builtins, name))
+
+
+def run_test(test, variables):
+    """Run a test; its outputs as a notebook has them: what it printed, and the value of its last line."""
+    printed, tree = io.StringIO(), ast.parse(test)
+    last = ast.Expression(tree.body.pop().value) if isinstance(tree.body[-1], ast.Expr) else None
+    outputs = []
+    with contextlib.redirect_stdout(printed):
+        try:
+            exec(compile(tree, "test", "exec"), variables)
+            value = eval(compile(last, "test", "eval"), variables) if last else None
+            if value is not None:
+                outputs.append(new_output("execute_result", {"text/plain": repr(value)}, execution_count=1))
+        except Exception as error:
+            outputs.append(
+                new_output(
+                    "error",
+                    ename=type(error).__name__,
+                    evalue=str(error),
+                    traceback=traceback.format_exception_only(error),
+                )
+            )
+    if printed.getvalue():
+        outputs.insert(0, new_output("stream", name="stdout", text=printed.getvalue()))
+    return outputs

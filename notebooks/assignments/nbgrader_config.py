@@ -1,0 +1,26 @@
+"""The course, for nbgrader: run its commands in this directory (see the book's page for teachers)."""
+
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE))
+
+from grading_apart import GradeApart  # noqa: E402
+from nbgrader.converters.autograde import Autograde  # noqa: E402
+from nbgrader.preprocessors import Execute  # noqa: E402
+
+c = get_config()  # noqa: F821  (traitlets puts it here)
+c.CourseDirectory.root = str(HERE)
+c.CourseDirectory.course_id = "gearpair"
+c.CourseDirectory.ignore = [".ipynb_checkpoints", "*.pyc", "__pycache__"]
+c.ClearSolutions.code_stub = {"python": "# your code here"}
+c.ClearSolutions.text_stub = "*Your answer here.*"
+c.IncludeHeaderFooter.header = ""
+c.OverwriteCells.add_missing_cells = True  # a test that was deleted is put back
+
+# The student's cells run in a kernel of their own, the tests apart from it.
+c.Autograde.autograde_preprocessors = [
+    GradeApart if each is Execute else each for each in Autograde.autograde_preprocessors.default()
+]
+c.GradeApart.timeout = 60  # seconds for one cell; after two cells that were stopped, the rest is not run

@@ -1,0 +1,21 @@
+"""The README's library example as somebody runs it who has installed nothing but the wheel: `make check-wheel`."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+
+
+def library_example() -> str:
+    """The Python of the README's section on the library."""
+    section = (ROOT / "README.md").read_text(encoding="utf-8").partition("## The library")[2]
+    return re.findall(r"```python\n(.*?)```", section, re.DOTALL)[0]
+
+
+if __name__ == "__main__":
+    python = sys.argv[1]
+    check = "import gearpair, pathlib; assert 'site-packages' in gearpair.__file__, gearpair.__file__\n"
+    script = check + library_example() + "\nprint(diagram.period.values)"
+    subprocess.run([python, "-I", "-c", script], check=True, cwd="/")

@@ -1,0 +1,1 @@
+"""Gates of the rendered book, in a real browser: `make check-site`."""

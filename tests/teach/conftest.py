@@ -1,0 +1,105 @@
+"""What the tests of the course share: a course directory of their own, and nbgrader as a teacher calls it."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import nbformat
+import pytest
+
+pytest.importorskip("nbgrader", reason="the teach extra is not installed: make teach")
+
+from nbgrader.api import Gradebook
+
+ASSIGNMENTS = Path(__file__).parents[2] / "notebooks" / "assignments"
+MADE = ("release", "submitted", "autograded", "feedback", "gradebook.db", "*.csv", "__pycache__", ".ipynb_checkpoints")
+
+
+class Course:
+    """A copy of the course, and what a teacher does with it."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+        shutil.copytree(ASSIGNMENTS, root, ignore=shutil.ignore_patterns(*MADE))
+
+    def nbgrader(self, *arguments: str, fails: bool = False) -> str:
+        """Everything that the command printed; it needs the environment's programs on PATH."""
+        environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+        environment["JUPYTER_PLATFORM_DIRS"] = "1"
+        done = subprocess.run(
+            ["nbgrader", *arguments],
+            cwd=self.root,
+            env=environment,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
+        assert (done.returncode != 0) == fails, done.stdout
+        return done.stdout
+
+    def release(self, name: str) -> None:
+        self.nbgrader("generate_assignment", name)
+
+    def source(self, name: str) -> nbformat.NotebookNode:
+        return nbformat.read(self.root / "source" / name / f"{name}.ipynb", as_version=4)
+
+    def released(self, name: str) -> nbformat.NotebookNode:
+        return nbformat.read(self.root / "release" / name / f"{name}.ipynb", as_version=4)
+
+    def solution(self, name: str, student: str, *edits: tuple[str, str, str]) -> nbformat.NotebookNode:
+        """The release with the source's answers in it, some of them edited: (cell, what, by what)."""
+        answers = {cell.id: cell.source for cell in self.source(name).cells}
+        for cell_id, old, new in edits:
+            assert old in answers[cell_id], f"{cell_id} of {name} has no {old!r}"
+            answers[cell_id] = answers[cell_id].replace(old, new)
+        notebook = self.released(name)
+        for cell in notebook.cells:
+            if cell.metadata.get("nbgrader", {}).get("solution"):
+                cell.source = answers[cell.id]
+        return identified(notebook, student)
+
+    def submit(self, name: str, student: str, notebook: nbformat.NotebookNode) -> None:
+        path = self.root / "submitted" / student / name / f"{name}.ipynb"
+        path.parent.mkdir(parents=True)
+        nbformat.write(notebook, path)
+
+    def marks(self, name: str) -> dict[str, float]:
+        """The sum of each student's marks by tests."""
+        with Gradebook(f"sqlite:///{self.root / 'gradebook.db'}") as gradebook:
+            return {
+                submission.student.id: sum(
+                    grade.auto_score or 0.0 for notebook in submission.notebooks for grade in notebook.grades
+                )
+                for submission in gradebook.assignment_submissions(name)
+            }
+
+
+def identified(notebook: nbformat.NotebookNode, student: str) -> nbformat.NotebookNode:
+    """The notebook with an id written into its first code cell."""
+    cell = next(cell for cell in notebook.cells if cell.id == "your-id")
+    cell.source = cell.source.replace('student_id = ""', f'student_id = "{student}"')
+    assert student in cell.source
+    return notebook
+
+
+@pytest.fixture(scope="module")
+def courses(tmp_path_factory):
+    """One course directory an assignment: made, released and kept on first use."""
+    made: dict[str, Course] = {}
+
+    def course(key: str, name: str) -> Course:
+        if key not in made:
+            made[key] = Course(tmp_path_factory.mktemp("course") / key)
+            made[key].release(name)
+        return made[key]
+
+    return course
+
+
+def pytest_terminal_summary(terminalreporter):
+    """How long the timed runs took: told, never asserted."""
+    for report in terminalreporter.getreports("passed"):
+        for what, value in report.user_properties:
+            terminalreporter.write_line(f"{what}: {value}")

@@ -1,0 +1,81 @@
+"""The last touches to a built site, and its pages as one document for print."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from gearpair.study.book import Book
+from gearpair.study.browser import find_chromium
+from gearpair.study.errors import StudyError
+from gearpair.study.finishing import finish_site, mend
+from gearpair.study.pdf import one_document
+
+THEBE = '<script>const THEBE_JS_URL = "https://example.org/thebe.js"; const other = 1</script>'
+TOGGLE = "<script>var togglebuttonSelector = '.toggle';</script>"
+
+
+@pytest.mark.parametrize(
+    ("page", "mended"),
+    [
+        (f"a{THEBE}b{THEBE}c", "abc"),
+        (f"{TOGGLE}x{TOGGLE}", f"x{TOGGLE}"),
+        ('<meta name="viewport" content="1"><meta name="viewport" content="2">', '<meta name="viewport" content="2">'),
+        (
+            '<summary aria-label="Toggle hidden content">\n<p class="collapsed admonition-title">Show</p></summary>',
+            '<summary>\n<span class="collapsed admonition-title">Show</span></summary>',
+        ),
+        ('<th style="x"></th><th>m</th>', '<td style="x"></td><th>m</th>'),
+        ('<i id="search-input"><b id="search-input">', '<i id="search-input"><b id="search-field">'),
+        ("<p>nothing to mend</p>", "<p>nothing to mend</p>"),
+    ],
+)
+def test_what_is_mended(page, mended):
+    assert mend(page) == mended
+    assert mend(mended) == mended
+
+
+def test_pictures_take_less_room_and_lose_nothing(tmp_path):
+    (tmp_path / "_images").mkdir()
+    pixels = np.random.default_rng(0).integers(0, 4, (40, 50, 3), dtype=np.uint8) * 60
+    Image.fromarray(pixels).save(tmp_path / "_images" / "figure.png")
+    (tmp_path / "page.html").write_text('<img src="../_images/figure.png"><img src="_static/figure.png">')
+    finish_site(tmp_path, first_page="page", title="A book")
+    assert [path.name for path in (tmp_path / "_images").iterdir()] == ["figure.webp"]
+    assert np.array_equal(np.asarray(Image.open(tmp_path / "_images" / "figure.webp").convert("RGB")), pixels)
+    expected = '<img src="../_images/figure.webp"><img src="_static/figure.png">'
+    assert (tmp_path / "page.html").read_text() == expected
+    assert 'url=page.html"' in (tmp_path / "index.html").read_text()
+
+
+def test_the_pages_become_one_document_whose_links_stay_inside(small_book):
+    html = small_book / "_build" / "html" / "book"
+    (html / "chapters").mkdir(parents=True)
+    first = '<a href="chapters/small.html#there">x</a><a href="https://example.org/">y</a><a href="#here">z</a>'
+    folded = "<details><summary>Show code cell source</summary>hidden</details>"
+    folded += "<details><summary>Show code cell output</summary>kept</details>"
+    page = "<html><head></head><body><nav>menu</nav><article><h1>{}</h1>{}</article></body></html>"
+    (html / "introduction.html").write_text(page.format("First", first))
+    second = f'<p id="there"><img src="../../_images/a.png"></p>{folded}'
+    (html / "chapters" / "small.html").write_text(page.format("Second", second))
+    text = one_document(Book(small_book), {"First": 2, "Second": 7})
+    for piece in (
+        '<a href="#book-chapters-small--there">x</a>',
+        '<a href="https://example.org/">y</a>',
+        '<a href="#book-introduction--here">z</a>',
+        'id="book-chapters-small--there"',
+        'src="_images/a.png"',
+        '<a href="#book-chapters-small">Second</a><span>7</span>',
+        "kept",
+    ):
+        assert piece in text
+    assert "hidden" not in text and "menu" not in text
+
+
+def test_a_missing_browser_is_told_in_a_sentence(monkeypatch, tmp_path):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.delenv("CHROMIUM", raising=False)
+    with pytest.raises(StudyError, match="none of chromium, .* is installed; on Debian: apt-get install chromium"):
+        find_chromium()
+    monkeypatch.setenv("CHROMIUM", "/nowhere/chromium")
+    with pytest.raises(StudyError, match="CHROMIUM=/nowhere/chromium is not a program"):
+        find_chromium()

@@ -1,0 +1,176 @@
+"""From a drawing to a drive: inertias, backlash and the transmission error, each against another way to the number."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+import gearpair as gp
+from gearpair.teeth import GearBlank, ToothProfile, error_harmonics, mesh_stiffness, profile_error, tip_relief
+from gearpair.teeth.blank import teeth_moment_mm4
+
+PAIR = gp.SpurPair(pinion_teeth=25, gear_teeth=71, module_mm=2.0, pinion_shift=0.3, gear_shift=0.1)
+GIVEN = dict(
+    pinion_torque_nm=50.0, pinion_speed_rpm=4000.0, backlash_um=80.0, transmission_error_um=4.0, damping_ratio=0.06
+)
+DRIVE = gp.GearDrive.from_pair(PAIR, **GIVEN)
+
+
+def outline(gear, n=4000):
+    """One tooth as a polygon, from the root circle over the tip and back, in mm."""
+    tooth = ToothProfile(gear)
+    last = math.sqrt((gear.tip_circle_mm / gear.base_radius_mm) ** 2 - 1.0)
+    parts = [tooth.fillet(np.linspace(0, 1, n)), tooth.involute(np.linspace(tooth.first_roll, last, n))]
+    y, h = (np.concatenate([part[k] for part in parts]) * gear.module_mm for k in (0, 1))
+    tip = np.arctan2(h[-1], y[-1]) * np.linspace(1, -1, n)
+    root = np.arctan2(h[0], y[0]) * np.linspace(-1, 1, n)
+    arcs = [
+        radius * np.array([np.cos(angle), np.sin(angle)])
+        for radius, angle in ((gear.tip_circle_mm, tip), (gear.root_circle_mm, root))
+    ]
+    return np.hstack([[y, h], arcs[0], [y[::-1], -h[::-1]], arcs[1]])
+
+
+@pytest.mark.parametrize("gear", [PAIR.pinion, PAIR.gear])
+def test_the_teeth_moment_is_that_of_the_polygon_of_their_outline(gear):
+    """Polar second moment of a polygon: sum over its edges of (x_i y_j - x_j y_i)(r_i^2 + r_i . r_j + r_j^2) / 12."""
+    x, y = outline(gear)
+    x1, y1 = np.roll(x, -1), np.roll(y, -1)
+    squares = x * x + x * x1 + x1 * x1 + y * y + y * y1 + y1 * y1
+    polygon = abs(np.sum((x * y1 - x1 * y) * squares)) / 12.0
+    assert teeth_moment_mm4(gear) == pytest.approx(gear.teeth * polygon, rel=1e-6)
+
+
+def test_the_inertia_of_a_solid_gear_and_of_a_webbed_one():
+    gear, width = PAIR.gear, 20.0
+    solid = GearBlank(density_kg_m3=7800.0).inertia_kg_m2(gear, width)
+    disc = math.pi / 2 * (gear.root_circle_mm**4 - gear.bore_mm**4)
+    assert solid == pytest.approx(7800.0e-9 * 1e-6 * width * (disc + teeth_moment_mm4(gear)), rel=1e-12)
+    webbed = GearBlank(rim_mm=6.0, web_mm=8.0, hub_mm=4.0, density_kg_m3=7800.0).inertia_kg_m2(gear, width)
+    outer, inner = gear.root_circle_mm - 6.0, gear.bore_mm + 4.0
+    removed = math.pi / 2 * (outer**4 - inner**4) * (width - 8.0) * 7800.0e-15
+    assert solid - webbed == pytest.approx(removed, rel=1e-12)
+    assert GearBlank(rim_mm=6.0, web_mm=width, density_kg_m3=7800.0).inertia_kg_m2(gear, width) == pytest.approx(solid)
+
+
+def test_a_drive_has_the_geometry_of_its_pair():
+    assert DRIVE.pinion_base_radius_mm == PAIR.pinion.base_radius_mm
+    assert DRIVE.gear_base_radius_mm == PAIR.gear.base_radius_mm
+    assert DRIVE.pinion_inertia_kg_m2 == GearBlank().inertia_kg_m2(PAIR.pinion, PAIR.face_width_mm)
+    mesh = mesh_stiffness(PAIR, coupling="ring")
+    assert DRIVE.mean_stiffness_n_per_um == pytest.approx(mesh.mean * 1e-6, rel=1e-14)
+    assert DRIVE.stiffness == mesh.wave(16)
+    osc = DRIVE.oscillator()
+    assert osc.damping_ratio == pytest.approx(0.06, rel=1e-12)
+    assert osc.stiffness.mean == pytest.approx(1.0, rel=1e-12)
+    more = gp.GearDrive.from_pair(PAIR, **GIVEN, pinion_added_inertia_kg_m2=1e-3, coupling="summed", n_levels=10)
+    assert more.pinion_inertia_kg_m2 == pytest.approx(DRIVE.pinion_inertia_kg_m2 + 1e-3, rel=1e-14)
+    assert more.mean_stiffness_n_per_um > DRIVE.mean_stiffness_n_per_um and len(more.stiffness.levels) == 10
+    assert more.oscillator().damping_ratio == pytest.approx(0.06, rel=1e-12)
+
+
+def test_sixteen_levels_stand_for_the_stiffness():
+    """With four times as many the largest force of a resonance changes by less than two per cent."""
+    factors = []
+    for n in (16, 64):
+        drive = gp.GearDrive.from_pair(PAIR, **(GIVEN | {"transmission_error_um": 0.0}), n_levels=n)
+        osc = drive.oscillator().replace(mesh_frequency=0.5)
+        factors.append(gp.motion.impact_measures(gp.steady_state(osc, 1.2, 0.0)).load_factor)
+    assert factors[0] == pytest.approx(factors[1], rel=0.02)
+    assert factors[0] > 1.1
+
+
+def test_backlash_by_the_turn_it_allows():
+    """Each backlash as the angle by which the pinion turns, the gear held: j_bn over its base radius."""
+    r = PAIR.pinion
+    working = r.base_radius_mm / math.cos(PAIR.working_pressure_angle)
+    for kind, angle in (
+        ("normal", 0.08 / r.base_radius_mm),
+        ("circumferential", 0.08 / working),  # an arc of the working pitch circle
+        ("thickness", 0.08 / r.pitch_radius_mm),  # of the reference circle: all of it taken off the pinion's tooth
+    ):
+        drive = gp.GearDrive.from_pair(PAIR, **GIVEN, backlash=kind)
+        assert drive.backlash_um * 1e-3 == pytest.approx(angle * r.base_radius_mm, rel=1e-12), kind
+
+
+def test_a_drive_there_and_back_with_harmonics():
+    """SI to dimensionless and back to 1e-12, harmonics and all."""
+    drive = gp.GearDrive.from_pair(
+        PAIR, **(GIVEN | {"transmission_error_um": [(1, 4.0, 0.3), (2, 1.5, -1.0), (5, 0.2, 2.0)]})
+    )
+    assert (drive.transmission_error_um, drive.error_phase_rad) == (4.0, 0.3)
+    osc = drive.oscillator()
+    assert [each.order for each in osc.harmonics] == [2, 5]
+    assert osc.harmonics[0].amplitude == pytest.approx(1.5 / (drive.backlash_um / 2), rel=1e-12)
+    again = drive.with_oscillator(osc)
+    for field in dataclasses.fields(drive):
+        here, there = getattr(drive, field.name), getattr(again, field.name)
+        if field.name == "error_harmonics":
+            assert np.allclose(here, there, rtol=1e-12, atol=0.0)
+        elif field.name in ("stiffness", "mesh"):
+            assert here is there
+        else:
+            assert there == pytest.approx(here, rel=1e-12)
+    assert drive.with_oscillator(osc.replace(stiffness=gp.StiffnessWave((0.0,), (1.0,)))).mesh is None
+
+
+def test_the_error_of_an_oscillator_is_what_its_force_is_made_of():
+    """The force is the mean minus the error's second derivative."""
+    osc = DRIVE.oscillator().replace(harmonics=[(3, 0.02, 0.5)])
+    tau, h = np.linspace(0.0, osc.period, 50), 1e-4
+    second = (osc.error(tau + h) - 2 * osc.error(tau) + osc.error(tau - h)) / h**2
+    assert np.allclose(osc.force(tau) - osc.mean_force, -second, atol=1e-6)
+
+
+def test_a_relief_seen_by_springs_side_by_side():
+    """Two pairs as springs with gaps: the approach under a load, less that of perfect teeth, is the error."""
+    mesh = mesh_stiffness(PAIR)
+    relief = tip_relief(mesh, 12.0, 8.0, 0.3)
+    assert relief[0] == 8.0 and relief[-1] == 12.0
+    error = profile_error(mesh, relief)
+    pair = np.interp(mesh.phase + np.arange(2)[:, None], mesh.path, mesh.pair_stiffness_n_per_m, right=0.0)
+    gaps = np.interp(mesh.phase + np.arange(2)[:, None], mesh.path, relief) * 1e-6
+    for i in (5, 300, 900):
+        k, d = pair[:, i] * (mesh.load_share[:, i] > 0), gaps[:, i]
+        load = 3e4  # enough for both to carry
+        approach = (load + k @ d) / k.sum()
+        assert np.all(approach - d[k > 0] > 0.0)
+        assert error[i] == pytest.approx((approach - load / k.sum()) * 1e6, rel=1e-6)
+    free = profile_error(mesh, relief, loaded=False)
+    assert np.all(free <= error + 1e-12)
+
+
+def test_harmonics_give_the_error_back():
+    rng = np.random.default_rng(0)
+    theta = 2 * np.pi * np.arange(240) / 80  # three mesh periods
+    drawn = [(n, rng.uniform(0.1, 3.0), rng.uniform(-3.0, 3.0)) for n in range(1, 7)]
+    wave = sum(a * np.sin(n * theta + p) for n, a, p in drawn) + 0.7 * np.sin(theta / 3) + 5.0
+    assert np.allclose(error_harmonics(wave, 6, n_periods=3), drawn, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "call, sentence",
+    [
+        (lambda: gp.GearDrive.from_pair(PAIR, **(GIVEN | {"backlash_um": 0.0})), "backlash_um must be .* above 0"),
+        (lambda: gp.GearDrive.from_pair(PAIR, **GIVEN, backlash="radial"), "backlash must be one of 'normal'"),
+        (lambda: gp.GearDrive.from_pair(PAIR, **(GIVEN | {"damping_ratio": -0.1})), "damping_ratio must be"),
+        (
+            lambda: gp.GearDrive.from_pair(PAIR, **GIVEN, gear_added_inertia_kg_m2=-1.0),
+            "gear_added_inertia_kg_m2 must be a finite number at least 0, got -1.0",
+        ),
+        (
+            lambda: gp.GearDrive.from_pair(PAIR, **(GIVEN | {"transmission_error_um": [(0, 1.0, 0.0)]})),
+            r"transmission_error_um\[0\] order must be a whole number of at least 1, got 0",
+        ),
+        (lambda: GearBlank(rim_mm=3.0), "rim_mm and web_mm go together"),
+        (lambda: GearBlank(rim_mm=60.0, web_mm=5.0).inertia_kg_m2(PAIR.gear, 20.0), "leave no web"),
+        (lambda: GearBlank(rim_mm=3.0, web_mm=25.0).inertia_kg_m2(PAIR.gear, 20.0), "web_mm must be .* at most 20"),
+        (lambda: error_harmonics(np.zeros(8), 4), "error_um must be more than 8 samples for 4 harmonics, got 8"),
+        (lambda: profile_error(mesh_stiffness(PAIR), [1.0, 2.0]), "deviation_um must be finite numbers over the path"),
+        (lambda: tip_relief(mesh_stiffness(PAIR), 1.0, 1.0, 3.0), "length must be"),
+    ],
+)
+def test_bad_input_gets_a_sentence(call, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        call()

@@ -1,0 +1,82 @@
+"""Pictures of a drive over its speeds show their results' own numbers."""
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+import gearpair as gp
+from gearpair import design, plotting
+
+matplotlib.use("Agg")
+
+PAIR = gp.SpurPair(pinion_teeth=28, gear_teeth=57, module_mm=3.0, face_width_mm=25.0)
+DRIVE = gp.GearDrive.from_pair(
+    PAIR, pinion_torque_nm=120.0, pinion_speed_rpm=1e3, backlash_um=100.0, transmission_error_um=4.0, damping_ratio=0.05
+)
+SPEEDS = np.linspace(6000.0, 9000.0, 21)
+
+
+@pytest.fixture(autouse=True)
+def closed_figures():
+    yield
+    plt.close("all")
+
+
+@pytest.fixture(scope="module")
+def chart():
+    return design.speed_chart(DRIVE, SPEEDS, n_starts=2)
+
+
+def lines(ax, label):
+    return [np.array(each.get_data()) for each in ax.lines if each.get_label() == label]
+
+
+def test_the_chart_draws_each_run_in_pieces_broken_where_it_jumps(chart):
+    iso = design.iso_dynamic_factor(DRIVE, SPEEDS, base_pitch_um=8.0, profile_um=8.0)
+    ax = plotting.dynamic_factors(chart, iso)
+    assert np.allclose(lines(ax, "ISO 6336-1, $K_v$")[0], [SPEEDS, iso.k_v])
+    pieces = [np.array(each.get_data()) for each in ax.lines if each.get_label().startswith("_child")]
+    drawn = {(float(x), round(float(y), 9)) for piece in pieces for x, y in piece.T}
+    runs = {
+        (float(x), round(float(y), 9))
+        for run in ("up", "down")
+        for x, y in zip(SPEEDS, chart.dynamic_factor.sel(run=run).values, strict=True)
+    }
+    assert drawn == runs
+    assert max(np.abs(np.diff(piece[1])).max(initial=0.0) for piece in pieces) < 0.3  # the jumps are twice as high
+    words = [text.get_text() for text in ax.texts]
+    assert [f"{at:.0f}" for at in chart.jump_speed.values] == [word for word in words if word.isdigit()]
+
+
+def test_the_strips_show_the_impact_state_of_each_run(chart):
+    ax = plotting.dynamic_factors(chart)
+    colours = [matplotlib.colors.to_hex(patch.get_facecolor()).upper() for patch in ax.patches]
+    states = [*chart.impact_state.sel(run="up").values, *chart.impact_state.sel(run="down").values]
+    assert colours == [plotting.planes.IMPACT_COLOURS[str(state)] for state in states]
+
+
+def test_tooth_loads_in_their_units(chart):
+    left, right = plotting.tooth_loads(chart, tuple(plt.subplots(1, 2)[1]))
+    assert np.allclose(lines(left, "run down")[0][1], chart.dte_rms.sel(run="down"))
+    assert np.allclose(lines(right, "run up")[0][1], chart.impact_velocity.sel(run="up"))
+
+
+def test_a_tornado_has_the_strongest_change_on_top():
+    found = design.sensitivity(DRIVE, SPEEDS, {"backlash_um": (50.0, 200.0), "damping_ratio": (0.025, 0.1)})
+    ax = plotting.tornado(found)
+    assert [label.get_text() for label in ax.get_yticklabels()] == ["backlash", "damping ratio"]
+    ends = sorted(bar.get_x() + bar.get_width() for bar in ax.patches if bar.get_y() > 0.5)
+    assert ends == pytest.approx(sorted(found.dynamic_factor.sel(change="damping_ratio").values))
+    other = plotting.tornado(found, "time_apart", sort_by="dynamic_factor")
+    assert [label.get_text() for label in other.get_yticklabels()] == ["backlash", "damping ratio"]
+
+
+def test_rattle_begins_at_the_line():
+    found = design.idle_rattle(
+        DRIVE, np.linspace(300.0, 1500.0, 21), order=2.0, pinion_swing_deg=0.05, drag_torque_nm=0.4
+    )
+    ax = plotting.rattle(found)
+    onset = ax.lines[1].get_xdata()[0]
+    speed, velocity = ax.lines[0].get_data()
+    assert np.all(velocity[speed < onset * 0.98] == 0.0) and np.all(velocity[speed > onset * 1.02] > 0.0)
