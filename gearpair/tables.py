@@ -163,6 +163,15 @@ def bifurcation_table(branches: Iterable[Branch], *, digits: int = 5) -> Table:
     Table
         Kind, value, the orbit's period, contacts per cycle on the drive and coast side (before and after
         a grazing), and impact state.
+
+    Examples
+    --------
+    >>> from gearpair import continue_orbit, periodic_orbit
+    >>> orbit = periodic_orbit(Oscillator(), 0.34629, -0.25625, 2)
+    >>> bifurcation_table([continue_orbit(orbit, "mesh_frequency", 0.7, 0.78)])
+    kind  mesh_frequency  period  contacts  impact state
+    ----------------------------------------------------
+    flip         0.76601       2  2 + 0     single-sided
     """
     found = sorted((b for branch in branches for b in branch.bifurcations), key=lambda b: (b.value, b.kind))
     rows = [[b.kind, f"{b.value:.{digits}f}", b.period, _contacts(b), IMPACT_NAMES[b.impact_state]] for b in found]
@@ -178,7 +187,18 @@ def _contacts(bifurcation: Bifurcation) -> str:
 def coexistence_table(
     branches: Sequence[Branch], lower: float, upper: float, *, shortest: float, digits: int = 4
 ) -> Table:
-    """Which stable orbits of a set of branches exist together, one row a range; see `coexistence`."""
+    """Which stable orbits of a set of branches exist together, one row a range; see `coexistence`.
+
+    Examples
+    --------
+    >>> from gearpair import continue_orbit, periodic_orbit
+    >>> orbit = periodic_orbit(Oscillator(), 0.34629, -0.25625, 2)
+    >>> coexistence_table([continue_orbit(orbit, "mesh_frequency", 0.7, 0.78)], 0.72, 0.78, shortest=0.001)
+      from      to  stable orbits
+    ------------------------------------------------------
+    0.7200  0.7660  period 2 (single-sided)
+    0.7660  0.7800  none up to the longest period followed
+    """
     rows = []
     for low, high, motions in coexistence(list(branches), lower, upper, shortest=shortest):
         words = [(f"{m.kind} ({IMPACT_NAMES[m.impact_state or '']})", n) for m, n in Counter(motions).items()]
@@ -201,6 +221,15 @@ def cascade_table(cascades: Iterable[Sequence[Bifurcation]], *, digits: int = 6)
     -------
     Table
         The sequence of periods, its flips, and the ratios of successive gaps (4.669 in the limit).
+
+    Examples
+    --------
+    >>> from gearpair import continue_orbit, periodic_orbit
+    >>> from gearpair.bifurcations import doubling_cascade
+    >>> orbit = periodic_orbit(Oscillator(), 0.34629, -0.25625, 2)
+    >>> flip = continue_orbit(orbit, "mesh_frequency", 0.7, 0.78).bifurcations[0]
+    >>> cascade_table([doubling_cascade(flip, 3)], digits=4).rows[0]
+    ('2 4 8', '0.7660 0.7983 0.8067', '3.84')
     """
     rows = []
     for flips in cascades:

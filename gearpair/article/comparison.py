@@ -40,6 +40,13 @@ def compare_ranges(stated: Iterable[Range], found: Sequence[MotionRange], digits
     Table
         The last column is the share of the published range where the published motion was found; a range
         published as complex or chaotic has none.
+
+    Examples
+    --------
+    >>> from gearpair.motion import periodic
+    >>> found = [MotionRange(0.004, 0.014, periodic(3)), MotionRange(0.0165, 0.025, periodic(1))]
+    >>> [row[-1] for row in compare_ranges(published.ranges("damping_ratio"), found).rows]
+    ['–', '73%', '100%']
     """
     rows = []
     for each in stated:
@@ -75,6 +82,13 @@ def compare_attractors(
     Returns
     -------
     Table
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, basins
+    >>> plane = basins(Oscillator(damping_ratio=0.022), [-2.0, 1.0], [0.0])
+    >>> compare_attractors(published.ranges("damping_ratio"), {0.022: plane}, least_share=0.1).rows[0]
+    ('0.022', 'D5', 'period 1', 'period 1, double-sided; period 2, single-sided')
     """
     ranges = list(stated)
     rows = []
@@ -114,6 +128,15 @@ def compare_boundaries(
     Returns
     -------
     Table
+
+    Examples
+    --------
+    >>> from gearpair.motion import periodic
+    >>> found = [MotionRange(0.003, 0.016, periodic(3)), MotionRange(0.0162, 0.025, periodic(1))]
+    >>> stated = published.ranges("damping_ratio")
+    >>> table = compare_boundaries(published.boundaries("damping_ratio"), stated, found, gap=0.001, digits=4)
+    >>> table.rows[-1][-2:]
+    ('0.0160', '-0.0005')
     """
     changes = _changes(found, gap)
     rows = []
@@ -148,7 +171,16 @@ def _changes(found: Sequence[MotionRange], gap: float) -> list[tuple[float, tupl
 
 
 def nearest(stated: float, bifurcations: Iterable[Bifurcation]) -> Bifurcation | None:
-    """The fold or flip nearest to a stated value; grazings change no motion by themselves."""
+    """The fold or flip nearest to a stated value; grazings change no motion by themselves.
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, continue_orbit, periodic_orbit
+    >>> orbit = periodic_orbit(Oscillator(), 0.34629, -0.25625, 2)
+    >>> branch = continue_orbit(orbit, "mesh_frequency", 0.7, 0.78)
+    >>> nearest(0.8, branch.bifurcations).kind
+    'flip'
+    """
     changes = [b for b in bifurcations if b.kind != "grazing"]
     return min(changes, key=lambda b: abs(b.value - stated), default=None)
 
@@ -158,6 +190,15 @@ def named_bifurcation(boundary: Boundary, bifurcations: Iterable[Bifurcation]) -
 
     A period doubling is a flip of the period below the boundary, a halving one of the period above, a saddle-node a
     fold of the period below; where the article names nothing, any fold or flip will do.
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, continue_orbit, periodic_orbit
+    >>> orbit = periodic_orbit(Oscillator(), 0.34629, -0.25625, 2)
+    >>> branch = continue_orbit(orbit, "mesh_frequency", 0.7, 0.78)
+    >>> [boundary] = [b for b in published.boundaries("mesh_frequency") if b.item == "F4"]
+    >>> named_bifurcation(boundary, branch.bifurcations).period, boundary.event
+    (2, 'period doubling')
     """
     ranges = published.ranges(boundary.parameter)
     place = published.boundaries(boundary.parameter).index(boundary)
@@ -182,6 +223,12 @@ def boundary_table(trials: Mapping[str, Sequence[Trial]], bifurcations: Mapping[
     Returns
     -------
     Table
+
+    Examples
+    --------
+    >>> from gearpair.article import SWAPPED, Protocol, run_trials
+    >>> boundary_table({"swapped": run_trials([SWAPPED], [Protocol("down")], 6)}, {"swapped": []}).columns[3:]
+    ('drawn, swapped', 'bifurcation, swapped')
     """
     rows = []
     for boundary in published.FREQUENCY_BOUNDARIES + published.DAMPING_BOUNDARIES:
@@ -217,6 +264,15 @@ def distance_from_bifurcations(
     distance, chance : float
         The mean distance of a published boundary from the nearest fold or flip, and the fraction of tables with
         boundaries anywhere on the axis whose mean distance is no larger.
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, continue_orbit, periodic_orbit
+    >>> orbit = periodic_orbit(Oscillator(), 0.34629, -0.25625, 2)
+    >>> branch = continue_orbit(orbit, "mesh_frequency", 0.7, 0.78)
+    >>> distance, chance = distance_from_bifurcations("mesh_frequency", branch.bifurcations, n=100)
+    >>> round(distance, 2), chance > 0.0
+    (0.38, True)
     """
     changes = np.array([b.value for b in bifurcations if b.parameter == parameter and b.kind != "grazing"])
     stated = np.array([boundary.value for boundary in published.boundaries(parameter)])
@@ -228,7 +284,16 @@ def distance_from_bifurcations(
 
 
 def drawn_boundary(trials: Iterable[Trial], boundary: published.Boundary) -> float | None:
-    """The nearest boundary between the same two motions in any of the diagrams, None where none has one."""
+    """The nearest boundary between the same two motions in any of the diagrams, None where none has one.
+
+    Examples
+    --------
+    >>> from gearpair.article import SWAPPED, Protocol, run_trials
+    >>> [boundary] = [b for b in published.boundaries("mesh_frequency") if b.item == "F6"]
+    >>> drawn = drawn_boundary(run_trials([SWAPPED], [Protocol("down", None)], 26), boundary)
+    >>> round(drawn, 2), boundary.value
+    (1.04, 1.028)
+    """
     scores = [t.frequency if boundary.parameter == "mesh_frequency" else t.damping for t in trials]
     found = [m.found for s in scores for m in s.matches if m.boundary == boundary and m.found is not None]
     return min(found, key=lambda value: abs(value - boundary.value), default=None)

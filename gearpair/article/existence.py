@@ -72,6 +72,14 @@ def shared_boundaries(reached: Reached) -> list[str]:
     Returns
     -------
     list of str
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED
+    >>> from gearpair.motion import periodic
+    >>> one, both = frozenset({periodic(3)}), frozenset({periodic(1), periodic(3)})
+    >>> shared_boundaries(Reached(PRINTED, "damping_ratio", np.array([0.003, 0.0165]), (one, both)))
+    ['D4']
     """
     pairs = zip(published.boundaries(reached.parameter), pairwise(published_motions(reached.parameter)), strict=True)
     nearest = [(b.item, kinds, int(np.argmin(np.abs(reached.values - b.value)))) for b, kinds in pairs]

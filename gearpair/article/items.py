@@ -47,6 +47,14 @@ def model_items(
         For each published axis the motions that the two readings have, in this order.
     shares : mapping of str to float
         The share of frequencies at which the ``"rectangle"`` and the ``"sinusoid"`` meet the computed curve's motion.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED, reached
+    >>> along = [reached([PRINTED, SWAPPED], p, 5, n_discarded=100) for p in ("mesh_frequency", "damping_ratio")]
+    >>> items = model_items(PRINTED, SWAPPED, along, {"rectangle": 0.8, "sinusoid": 0.6})
+    >>> [(each.item, each.verdict) for each in items if each.item in ("M1", "M5", "F14")]
+    [('M1', 'assumption'), ('M5', 'refuted'), ('F14', 'vacuous')]
     """
     means = [h.wave.mean for h in (printed, best)]
     rows = published.STIFFNESS_TABLE
@@ -118,7 +126,14 @@ def model_items(
 
 
 def integrator_items(printed: Hypothesis, best: Hypothesis, n_values: int = 41) -> list[Verdict]:
-    """N1: how much of the frequency axis Runge-Kutta 4-5 draws rightly at its usual tolerance."""
+    """N1: how much of the frequency axis Runge-Kutta 4-5 draws rightly at its usual tolerance.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> [(each.item, each.verdict) for each in integrator_items(PRINTED, SWAPPED, n_values=5)]
+    [('N1', 'refuted')]
+    """
     values = axis("mesh_frequency", n_values)
     texts, holds = [], []
     for osc in (printed.oscillator(), best.oscillator()):
@@ -131,7 +146,15 @@ def integrator_items(printed: Hypothesis, best: Hypothesis, n_values: int = 41) 
 
 
 def range_items(printed: Sequence[Reached], best: Sequence[Reached]) -> list[Verdict]:
-    """F1 to F11, D3 and D5 where they are ranges: on what share the published motion is reached from some start."""
+    """F1 to F11, D3 and D5 where they are ranges: on what share the published motion is reached from some start.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED, reached
+    >>> printed, swapped = reached([PRINTED, SWAPPED], "damping_ratio", 5)
+    >>> [(each.item, each.best) for each in range_items([printed], [swapped])]
+    [('D3', 'on all of it'), ('D5', 'on all of it')]
+    """
     found = []
     for one, other in zip(printed, best, strict=True):
         for stated in published.ranges(one.parameter):
@@ -154,6 +177,11 @@ def boundary_items(printed: Sequence[Bifurcation], best: Sequence[Bifurcation]) 
     ----------
     printed, best : sequence of Bifurcation
         Of each reading, in either parameter; the nearest one of the kind that the article names counts.
+
+    Examples
+    --------
+    >>> [(each.item, each.best, each.verdict) for each in boundary_items([], [])][:2]
+    [('F2', 'none of this kind', 'refuted'), ('F4', 'none of this kind', 'refuted')]
     """
     found = []
     for parameter in ("mesh_frequency", "damping_ratio"):
@@ -174,6 +202,12 @@ def transient_items(printed: Hypothesis, best: Hypothesis) -> list[Verdict]:
     """D1 and D2: whether the chaos at small damping lasts, from a grid of starts and transients of 30 000 periods.
 
     Where it does not, there is no attractor to end in a crisis.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> transient_items(PRINTED, SWAPPED)[0].best
+    'after 30 000 periods chaotic at 0 of 5 values'
     """
     texts, holds = [], []
     for hypothesis in (printed, best):
@@ -190,7 +224,14 @@ def transient_items(printed: Hypothesis, best: Hypothesis) -> list[Verdict]:
 
 
 def chaos_items(printed: Hypothesis, best: Hypothesis) -> list[Verdict]:
-    """F9, F13, D6, C1 and C2: where chaos is, and what damping does to it."""
+    """F9, F13, D6, C1 and C2: where chaos is, and what damping does to it.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> [each.item for each in chaos_items(PRINTED, SWAPPED)]
+    ['F9', 'F13', 'D6', 'C1', 'C2']
+    """
     x, v = np.linspace(-1.0, 2.0, 4), np.linspace(-0.6, 0.6, 3)
     values = axis("mesh_frequency", 41)
     (zone,) = (r for r in published.FREQUENCY_RANGES if r.motion == published.COMPLEX)
@@ -239,6 +280,11 @@ def route_items(
         Of each reading; the flips of period 2 in mesh frequency count.
     stretches : sequence of two (lower, upper), one per reading
         The last flip of period 2 below and the first above which its chaotic zone lies.
+
+    Examples
+    --------
+    >>> [(each.item, each.best, each.verdict) for each in route_items([], [], [(0.87, 1.2), (0.87, 1.2)])]
+    [('F12', 'flips none in, none out', 'refuted')]
     """
     texts, holds = [], []
     for flips, (lower, upper) in zip((printed, best), stretches, strict=True):
@@ -251,7 +297,14 @@ def route_items(
 
 
 def start_items(printed: Hypothesis, best: Hypothesis) -> list[Verdict]:
-    """I1 to I5 and C3: what the plane of starts holds at Omega_h 0.7, zeta 0.02."""
+    """I1 to I5 and C3: what the plane of starts holds at Omega_h 0.7, zeta 0.02.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> start_items(PRINTED, SWAPPED)[3].best
+    '2 attractors, period 1: double and single_drive'
+    """
     grid = np.linspace(-3.0, 3.0, 13)
     planes = [basins(h.oscillator(), grid, grid) for h in (printed, best)]
     states = [sorted({str(s) for s in plane.attractor_impact_state.values}) for plane in planes]
@@ -286,6 +339,12 @@ def bifurcations_of(hypothesis: Hypothesis, max_period: int = 3) -> list[Bifurca
     Returns
     -------
     list of Bifurcation
+
+    Examples
+    --------
+    >>> from gearpair.article import SWAPPED
+    >>> sorted({(b.kind, b.parameter) for b in bifurcations_of(SWAPPED, max_period=1)})
+    [('flip', 'mesh_frequency'), ('fold', 'damping_ratio')]
     """
     osc = hypothesis.oscillator()
     branches = [

@@ -19,7 +19,13 @@ from gearpair.motion.names import Motion, periodic
 
 
 def axis(parameter: str, n_values: int) -> NDArray[np.float64]:
-    """Evenly spaced values over the published axis of a parameter."""
+    """Evenly spaced values over the published axis of a parameter.
+
+    Examples
+    --------
+    >>> axis("mesh_frequency", 5).round(3).tolist()
+    [0.7, 0.95, 1.2, 1.45, 1.7]
+    """
     ranges = published.ranges(parameter)
     return np.linspace(ranges[0].lower, ranges[-1].upper, check_count("n_values", n_values, at_least=2))
 

@@ -61,6 +61,12 @@ def most_met_by_chance(trials: Sequence[Trial], n: int = 1000, *, seed: int = 0)
     Returns
     -------
     ndarray of int, shape (n,)
+
+    Examples
+    --------
+    >>> from gearpair.article import SWAPPED, Protocol, run_trials
+    >>> most_met_by_chance(run_trials([SWAPPED], [Protocol("down")], 11), 10).shape
+    (10,)
     """
     rng = np.random.default_rng(seed)
     met = np.zeros((len(trials), check_count("n", n)), np.int64)
@@ -89,6 +95,13 @@ def search_table(families: Mapping[str, tuple[Sequence[Trial], Sequence[Trial]]]
     Table
         The last column is the share of a thousand random tables of which some setting of the first reading meets as
         many boundaries.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED, Protocol, run_trials
+    >>> printed, swapped = ([trial] for trial in run_trials([PRINTED, SWAPPED], [Protocol("down")], 6))
+    >>> search_table({"seeding": (swapped, printed)}).rows[0][3]
+    'exact flow, down'
     """
     rows = []
     for name, (trials, others) in families.items():
@@ -120,6 +133,15 @@ def asked_phases(bifurcation: Bifurcation, stated: float, largest: float = 0.3) 
     list of float
         In radians, relative to that oscillator; where the curve of the bifurcation in both parameters passes the
         value, by linear interpolation between its points.
+
+    Examples
+    --------
+    >>> from gearpair import continue_orbit, periodic_orbit
+    >>> from gearpair.article import SWAPPED
+    >>> orbit = periodic_orbit(SWAPPED.oscillator(1.6), 0.0, 0.0, 1)
+    >>> [flip] = [b for b in continue_orbit(orbit, "mesh_frequency", 1.5, 1.65).bifurcations if b.kind == "flip"]
+    >>> [round(phase, 2) for phase in asked_phases(flip, 1.555, 0.1)]
+    [-0.04]
     """
     ends = axis(bifurcation.parameter, 2)
     room = REACH * (ends[1] - ends[0])
@@ -150,6 +172,15 @@ def asked_phase_table(bifurcations: Sequence[Bifurcation], largest: float = 0.3)
     Table
         One row for each of the boundaries at which the article names a doubling, a halving or a saddle-node, and for
         the end of the last period 1, which has a flip of its own.
+
+    Examples
+    --------
+    >>> from gearpair import continue_orbit, periodic_orbit
+    >>> from gearpair.article import SWAPPED
+    >>> orbit = periodic_orbit(SWAPPED.oscillator(1.6), 0.0, 0.0, 1)
+    >>> [flip] = [b for b in continue_orbit(orbit, "mesh_frequency", 1.5, 1.65).bifurcations if b.kind == "flip"]
+    >>> asked_phase_table([flip], 0.1).rows[-1][:3]
+    ('F11', '1.555', 'flip of period 1')
     """
     rows = []
     for boundary in published.FREQUENCY_BOUNDARIES + published.DAMPING_BOUNDARIES:

@@ -176,7 +176,15 @@ class Ranked:
 
 
 def ranking(done: Iterable[Trial]) -> list[Ranked]:
-    """Hypotheses by the mean over their trials, the highest first: one lucky start shall not decide."""
+    """Hypotheses by the mean over their trials, the highest first: one lucky start shall not decide.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> ranked = ranking(run_trials([PRINTED, SWAPPED], [Protocol("down", None)], 11))
+    >>> [entry.hypothesis == SWAPPED for entry in ranked]
+    [True, False]
+    """
     grouped: dict[Hypothesis, list[Trial]] = {}
     for trial in done:
         grouped.setdefault(trial.hypothesis, []).append(trial)
@@ -199,6 +207,12 @@ def score_by_choice(ranked: Sequence[Ranked]) -> Table:
     -------
     Table
         One row for each value of each field of `Hypothesis`.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> score_by_choice(ranking(run_trials([PRINTED, SWAPPED], [Protocol("down", None)], 11))).rows[0][:3]
+    ('stiff for', '2 - eps', '1')
     """
     rows = []
     for field in fields(Hypothesis):
@@ -220,6 +234,13 @@ def score_by_start(done: Iterable[Trial]) -> Table:
     Returns
     -------
     Table
+
+    Examples
+    --------
+    >>> from gearpair.article import SWAPPED
+    >>> starts = all_protocols(starts=[(0.0, 0.0), (1.0, 0.0)], n_discarded=[None])
+    >>> sorted(row[0] for row in score_by_start(run_trials([SWAPPED], starts, 6)).rows)
+    ['(0, 0)', '(1, 0)']
     """
     grouped: dict[tuple[float, float], list[float]] = {}
     for trial in done:

@@ -114,6 +114,12 @@ def verdict_table(*groups: Iterable[Verdict]) -> Table:
     ------
     ValueError
         Unless every item of the article is there exactly once.
+
+    Examples
+    --------
+    >>> advice = (Verdict(statement.item, "", "", "advice") for statement in published.STATEMENTS)
+    >>> [row[0] for row in verdict_table(advice).rows][:3]
+    ['M1', 'M2', 'M3']
     """
     found = [verdict for group in groups for verdict in group]
     expected = [s.item for s in published.STATEMENTS]
@@ -128,6 +134,13 @@ def verdict_table(*groups: Iterable[Verdict]) -> Table:
 
 
 def counter_evidence(verdicts: Iterable[Verdict]) -> Table:
-    """The items that hold better as printed than in the best reading: what speaks against that reading."""
+    """The items that hold better as printed than in the best reading: what speaks against that reading.
+
+    Examples
+    --------
+    >>> against = both("F9", ["chaos", "no chaos"], [True, False], "a grid of starts")
+    >>> [row[0] for row in counter_evidence([against]).rows]
+    ['F9']
+    """
     rows = [[v.item, published.statement(v.item).text, v.printed, v.best] for v in verdicts if v.verdict == "contrary"]
     return Table(["item", "the article", "as printed", "best reading"], rows)

@@ -58,6 +58,17 @@ def find_jumps(up: list[SteadyState], down: list[SteadyState]) -> list[Jump]:
     Between two speeds of a run whose motions differ, the branch of the first motion is followed towards the second
     speed (pseudo-arclength continuation): the jump is where it first loses its stability. A change that is continuous,
     a period doubling or an impact that sets in, is no jump.
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, steady_state
+    >>> osc, up = Oscillator(damping_ratio=0.1, error_amplitude=0.1), []
+    >>> for value in (0.7, 0.75, 0.8):
+    ...     start = up[-1].points[0].tolist() if up else (0.5, 0.0)
+    ...     up.append(steady_state(osc.replace(mesh_frequency=value), *start))
+    >>> [jump] = find_jumps(up, [])
+    >>> jump.kind, round(jump.mesh_frequency, 3)
+    ('fold', 0.763)
     """
     found = []
     for run, states in (("up", up), ("down", down[::-1])):

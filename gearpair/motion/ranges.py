@@ -123,6 +123,14 @@ def found_ranges(*sweeps: xr.Dataset, narrowest: float = 0.0) -> tuple[MotionRan
     ------
     ValueError
         For sweeps over different parameters, or a negative `narrowest`.
+
+    Examples
+    --------
+    >>> osc = Oscillator()
+    >>> up, down = (sweep(osc, "mesh_frequency", values) for values in ([0.7, 0.74, 0.78], [0.74, 0.72, 0.7]))
+    >>> for run in found_ranges(up, down, narrowest=0.01):
+    ...     print(run.motion, run.lower, run.upper)
+    period 2 0.7 0.74
     """
     check_number("narrowest", narrowest, at_least=0.0)
     if len({swept_parameter(result) for result in sweeps}) > 1:

@@ -62,7 +62,13 @@ def lyapunov_exponents(
 
 
 def multipliers_of(monodromy: NDArray[np.float64]) -> NDArray[np.complex128]:
-    """Eigenvalues of 2 x 2 matrices, shape (..., 2, 2), the largest modulus first (then the larger imaginary part)."""
+    """Eigenvalues of 2 x 2 matrices, shape (..., 2, 2), the largest modulus first (then the larger imaginary part).
+
+    Examples
+    --------
+    >>> multipliers_of(np.array([[0.0, -0.25], [1.0, 0.0]])).tolist()
+    [0.5j, -0.5j]
+    """
     half = 0.5 * (monodromy[..., 0, 0] + monodromy[..., 1, 1])
     determinant = monodromy[..., 0, 0] * monodromy[..., 1, 1] - monodromy[..., 0, 1] * monodromy[..., 1, 0]
     root = np.sqrt(half * half - determinant + 0j)

@@ -5,7 +5,14 @@ colour-blind readers. Nothing is set at import: ``plt.style.use(STYLE)``, or ``w
 the book's look.
 """
 
-from gearpair.plotting.article import boundaries_by_step, coverage_by_phase, reached_motions, score_ranking
+from gearpair.plotting.article import (
+    boundaries_by_step,
+    contact_ratio_cloud,
+    coverage_by_phase,
+    reached_motions,
+    score_ranking,
+    stiffness_trends,
+)
 from gearpair.plotting.bifurcations import bifurcation_curves, branches
 from gearpair.plotting.diagrams import (
     bifurcation_diagram,
@@ -31,13 +38,11 @@ from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, rattle, toot
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.teeth import (
     compliance_stack,
-    contact_ratio_cloud,
     finite_element_check,
     load_shares,
     mesh_curves,
     pair_stiffness,
     per_width,
-    stiffness_trends,
     tooth_outlines,
 )
 from gearpair.plotting.waves import harmonics, stiffness_wave

@@ -1,4 +1,4 @@
-"""Hypotheses about the published tables: their scores, and the motions that they have."""
+"""The published tables: scores and motions of hypotheses about them, and the stiffness table beside computed ones."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from numpy.typing import ArrayLike
 
 from gearpair.article import published
 from gearpair.article.existence import Reached
+from gearpair.article.published import StiffnessRow
 from gearpair.article.readings import Hypothesis
 from gearpair.article.scoring import published_motions
 from gearpair.article.search import TOLERANCES
@@ -32,6 +35,13 @@ def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax
     -------
     Axes
         With a bar from the mean to the best score for each.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED, Protocol, ranking, run_trials
+    >>> ranked = ranking(run_trials([PRINTED, SWAPPED], [Protocol("down")], 6))
+    >>> [text.get_text() for text in score_ranking(ranked, {"swapped": SWAPPED}).texts]
+    ['swapped']
     """
     ax = new_axes(ax, 2.6)
     places = np.arange(1, len(ranked) + 1)
@@ -65,6 +75,14 @@ def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = ""
     -------
     Axes
         A row for each published motion: an outlined box where it is published, a dot where it was reached.
+
+    Examples
+    --------
+    >>> from gearpair.article import SWAPPED
+    >>> from gearpair.article import reached as motions_reached
+    >>> ax = reached_motions(motions_reached([SWAPPED], "damping_ratio", 5)[0])
+    >>> [label.get_text() for label in ax.get_yticklabels()]
+    ['chaotic', 'period 3', 'period 1']
     """
     motions = list(dict.fromkeys(published_motions(reached.parameter)))
     ax = new_axes(ax, 0.7 + 0.3 * len(motions))
@@ -97,6 +115,14 @@ def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], 
     -------
     Axes
         With one curve for each axis.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED, reached
+    >>> along = (reached([SWAPPED], p, 3, n_discarded=100) for p in ("mesh_frequency", "damping_ratio"))
+    >>> ax = coverage_by_phase(*along)
+    >>> [line.get_label() for line in ax.lines[:2]]
+    ['frequency table', 'damping table']
     """
     ax = new_axes(ax, 2.4)
     for one, name, style in ((frequency, "frequency table", "o-"), (damping, "damping table", "s--")):
@@ -124,6 +150,14 @@ def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = No
     list of Axes
         One for each published boundary, with one line of dots for each way to sweep, and the tolerance as a band. Dots
         on the rim lie farther out; what a diagram does not have is not drawn.
+
+    Examples
+    --------
+    >>> from gearpair.article import SWAPPED, Protocol, run_trials
+    >>> from gearpair.methods import Integrator
+    >>> trials = run_trials([SWAPPED], [Protocol("restart", 50)], 6, [Integrator(steps=20)])
+    >>> [ax.get_title().split(":")[0] for ax in boundaries_by_step(trials)]
+    ['F2', 'F4', 'F6', 'F8', 'F10', 'F11', 'D2', 'D4']
     """
     if axes is None:
         with plt.style.context({**STYLE, "font.size": 8.0, "axes.labelsize": 8.0, "axes.titlesize": 8.5}):
@@ -155,3 +189,87 @@ def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = No
         ax.set_ylabel("drawn minus published")
     axes[3].legend(loc="upper left", fontsize=7, handletextpad=0.1, borderaxespad=0.1)
     return list(axes)
+
+
+def stiffness_trends(
+    published: Sequence[StiffnessRow], computed: Mapping[str, Sequence[StiffnessRow]], axes: Sequence[Axes]
+) -> list[Axes]:
+    """Contact ratio, a and b against the gear's teeth: what is published and what is computed.
+
+    Parameters
+    ----------
+    published : sequence of StiffnessRow
+    computed : mapping of str to sequence of StiffnessRow
+        By the name for the legend.
+    axes : sequence of three Axes
+
+    Returns
+    -------
+    list of Axes
+        Each with one line for the article, named first, and one for each entry of `computed`.
+
+    Examples
+    --------
+    >>> from matplotlib import pyplot as plt
+    >>> from gearpair.article.published import STIFFNESS_TABLE
+    >>> axes = stiffness_trends(STIFFNESS_TABLE, {}, plt.figure().subplots(1, 3))
+    >>> axes[0].get_xticks().tolist(), axes[1].get_title()
+    ([34, 44, 54], '$a$')
+    """
+    colours = ("#D55E00", INK, "#009E73")
+    for ax, name in zip(axes, ("contact_ratio", "a", "b"), strict=True):
+        for k, (label, rows) in enumerate({"the article": published, **computed}.items()):
+            ax.plot(
+                [row.teeth_wheel for row in rows], [getattr(row, name) for row in rows], marker="o" if k else "s",
+                markersize=5, color=colours[k % len(colours)], linestyle="-" if k else "--", label=label,
+            )  # fmt: skip
+        ax.set(xlabel="teeth of the gear $z_2$", title=LABELS[name])
+        ax.set_xticks([row.teeth_wheel for row in published])
+    return list(axes)
+
+
+def contact_ratio_cloud(ratios: ArrayLike, published: Sequence[StiffnessRow], ax: Axes | None = None) -> Axes:
+    """Contact ratio of the first pair and its growth to the last: many tooth systems, and the article.
+
+    Parameters
+    ----------
+    ratios : array_like, shape (n, m)
+        Contact ratios of n tooth systems at the m pairs of the article.
+    published : sequence of StiffnessRow
+        Those m pairs.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+        With one dot for each system and a star for the article.
+
+    Examples
+    --------
+    >>> from gearpair.article.published import STIFFNESS_TABLE
+    >>> ax = contact_ratio_cloud([[1.6, 1.65, 1.7], [1.5, 1.55, 1.6]], STIFFNESS_TABLE)
+    >>> len(ax.lines[0].get_xdata()), ax.lines[1].get_marker()
+    (2, '*')
+    """
+    ax = new_axes(ax, 3.2)
+    values = np.asarray(ratios, dtype=float)
+    first, last = published[0], published[-1]
+    ax.plot(
+        values[:, 0], values[:, -1] - values[:, 0], linestyle="", marker=".", markersize=3, markeredgewidth=0,
+        color=INK, alpha=0.45, rasterized=True,
+    )  # fmt: skip
+    ax.plot(
+        first.contact_ratio, last.contact_ratio - first.contact_ratio, linestyle="", marker="*", markersize=13,
+        color="#D55E00",
+    )  # fmt: skip
+    handles = [
+        Line2D([], [], linestyle="", marker="*", markersize=11, color="#D55E00", label="the article"),
+        Line2D([], [], linestyle="", marker=".", markersize=6, color=INK, label="tooth systems that can run"),
+    ]
+    ax.legend(handles=handles, loc="upper right")
+    ax.axhline(0.0, color=BOUNDARY, linewidth=0.6)
+    ax.set(
+        xlabel=rf"contact ratio at $z_2 = {first.teeth_wheel}$",
+        ylabel=rf"growth to $z_2 = {last.teeth_wheel}$",
+    )
+    return ax

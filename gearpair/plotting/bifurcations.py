@@ -40,6 +40,14 @@ def branches(
     -------
     Axes
         With one line for each run of stable or of unstable orbits of each section point of each branch.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> orbit = gp.periodic_orbit(gp.Oscillator(), 0.34629, -0.25625, 2)
+    >>> ax = branches([gp.continue_orbit(orbit, "mesh_frequency", 0.7, 0.78)])
+    >>> [line.get_marker() for line in ax.lines if line.get_marker() != "None"]  # a flip
+    ['o']
     """
     ax = new_axes(ax)
     kinds = set()
@@ -105,6 +113,15 @@ def bifurcation_curves(
     -------
     Axes
         With one line for each curve.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> orbit = gp.periodic_orbit(gp.Oscillator(), 0.34629, -0.25625, 2)
+    >>> flip = gp.continue_orbit(orbit, "mesh_frequency", 0.7, 0.78).bifurcations[0]
+    >>> curve = gp.continue_bifurcation(flip, {"mesh_frequency": (0.76, 0.78), "damping_ratio": (0.019, 0.021)})
+    >>> bifurcation_curves([curve]).lines[0].get_linestyle()
+    '--'
     """
     ax = new_axes(ax)
     drawn = list(curves)

@@ -47,6 +47,13 @@ def bifurcation_diagram(
     -------
     Axes
         With one line, labelled with its name, for each kind of motion.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = bifurcation_diagram(gp.sweep(gp.Oscillator(), "mesh_frequency", [0.7, 0.74, 0.78]))
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['period 2', 'period 4']
     """
     ax = new_axes(ax)
     parameter = swept_parameter(sweep)
@@ -92,6 +99,15 @@ def mark_boundaries(boundaries: Iterable[Boundary], ax: Axes) -> Axes:
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> from matplotlib import pyplot as plt
+    >>> from gearpair import published
+    >>> ax = plt.figure().add_subplot(xlim=(0.7, 1.0))
+    >>> ax = mark_boundaries(published.boundaries("mesh_frequency"), ax)
+    >>> [float(line.get_xdata()[0]) for line in ax.lines]
+    [0.799, 0.865]
     """
     left, right = ax.get_xlim()
     for boundary in boundaries:
@@ -115,6 +131,13 @@ def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) 
     -------
     Axes
         With one line of dots each for the smallest and the largest X of every kind of motion.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = extremes(gp.sweep(gp.Oscillator(), "mesh_frequency", [0.7, 0.74, 0.78]))
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['period 2', 'period 4']
     """
     ax = new_axes(ax)
     parameter = swept_parameter(sweep)
@@ -154,6 +177,13 @@ def exponents(sweep: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, l
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = exponents(gp.sweep(gp.Oscillator(), "mesh_frequency", [0.7, 0.74, 0.78]), label="rising")
+    >>> bool(ax.lines[1].get_ydata().max() < 0.0)  # periodic at all three
+    True
     """
     ax = new_axes(ax, 2.2)
     parameter = swept_parameter(sweep)
@@ -190,6 +220,15 @@ def range_strips(
     -------
     Axes
         With one bar for each range; wide ones hold their names.
+
+    Examples
+    --------
+    >>> from gearpair import published
+    >>> from gearpair.motion import periodic
+    >>> found = [MotionRange(0.004, 0.016, periodic(3)), MotionRange(0.016, 0.025, periodic(1))]
+    >>> ax = range_strips({"article": published.ranges("damping_ratio"), "found": found})
+    >>> [label.get_text() for label in ax.get_yticklabels()], len(ax.patches)
+    (['article', 'found'], 5)
     """
     ax = new_axes(ax, 0.7 + 0.42 * len(strips))
     bars: list[tuple[int, float, float, Motion]] = []
@@ -240,6 +279,15 @@ def range_lanes(
     -------
     Axes
         With one bar for each range.
+
+    Examples
+    --------
+    >>> from gearpair import published
+    >>> from gearpair.motion import periodic
+    >>> found = [MotionRange(0.01, 0.02, periodic(1))]
+    >>> ax = range_lanes({"article": published.ranges("damping_ratio"), "found": found})
+    >>> [label.get_text() for label in ax.get_yticklabels()]
+    ['period 1', 'period 3', 'chaotic']
     """
     rows = [(k, each) for k, source in enumerate(sources.values()) for each in source]
     motions = sorted({each.motion for _, each in rows})
@@ -279,6 +327,13 @@ def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
     -------
     Axes
         With one filled band, labelled with its name, for each motion.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> shares = gp.motion.motion_shares(gp.Oscillator(), "damping_ratio", [0.1, 0.2], [0.0, 1.0], [0.0])
+    >>> [band.get_label() for band in motion_shares(shares).collections]
+    ['period 1']
     """
     ax = new_axes(ax)
     parameter = str(shares.share.dims[0])

@@ -40,6 +40,13 @@ def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     -------
     Axes
         With one image whose pixels are the grid's points.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = impact_map(gp.parameter_map(gp.Oscillator(), {"damping_ratio": [0.05, 0.1], "mesh_frequency": [0.6, 0.7]}))
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['no impact', 'single-sided']
     """
     states = result.impact_state.values
     present = [state for state in IMPACT_COLOURS if np.any(states == state)]
@@ -79,6 +86,14 @@ def quantity_map(
     -------
     Axes
         With a colour bar beside it.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> axes = {"damping_ratio": [0.05, 0.1], "mesh_frequency": [0.6, 0.7]}
+    >>> ax = quantity_map(gp.parameter_map(gp.Oscillator(), axes, measures=True), "load_factor")
+    >>> ax.figure.axes[1].get_ylabel()
+    'dynamic load factor'
     """
     values = result[quantity].values
     top = float(np.nanmax(values)) if largest is None else largest
@@ -127,6 +142,13 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
     Axes
         With one filled step for each attractor, in the colour of the motion that it mostly is, and a triangle at the
         top where one has tipped to another.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = attractor_shares(gp.motion.continue_attractors(gp.Oscillator(), "damping_ratio", [0.15, 0.16], n=50))
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['period 1']
     """
     ax = new_axes(ax, 3.6)
     parameter = str(result.share.dims[0])

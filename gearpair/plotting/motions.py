@@ -42,6 +42,13 @@ def time_history(
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = time_history(gp.trajectory(gp.Oscillator(), 1.0, 0.0, 2))
+    >>> ax.get_ylabel(), [float(end) for end in ax.get_xlim()]
+    ('displacement $X$', [0.0, 2.0])
     """
     ax = new_axes(ax)
     last = motion.samples_per_period * n_periods + 1 if n_periods else len(motion.tau)
@@ -81,6 +88,13 @@ def phase_portrait(
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = phase_portrait(gp.trajectory(gp.Oscillator(), 1.0, 0.0, 2))
+    >>> ax.get_xlabel(), ax.get_ylabel()
+    ('displacement $X$', "velocity $X'$")
     """
     ax = new_axes(ax, 5.0)
     last = motion.samples_per_period * n_periods + 1 if n_periods else len(motion.tau)
@@ -109,6 +123,13 @@ def poincare_section(
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = poincare_section(gp.trajectory(gp.Oscillator(), 1.0, 0.0, 20))
+    >>> len(ax.lines[0].get_xdata())  # the start, and the end of each period
+    21
     """
     ax = new_axes(ax, 5.0)
     x, v = motion.x[:: motion.samples_per_period], motion.v[:: motion.samples_per_period]
@@ -139,6 +160,13 @@ def spectrum(
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = spectrum(gp.spectrum(gp.trajectory(gp.Oscillator(), 1.0, 0.0, 8)), period=2)
+    >>> ax.get_ylabel(), ax.get_yscale()
+    ('amplitude', 'log')
     """
     ax = new_axes(ax)
     shown = (lines.frequency > 0.0) & (lines.frequency <= highest)
@@ -173,6 +201,12 @@ def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: s
     -------
     list of Axes
         The four, in that order.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> [ax.get_ylabel() for ax in portrait(gp.steady_state(gp.Oscillator()))]
+    ['displacement $X$', "velocity $X'$", "velocity $X'$", 'amplitude']
     """
     if axes is None:
         with plt.style.context(STYLE):
@@ -211,6 +245,13 @@ def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequen
     ------
     ValueError
         For no states.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> figure = gallery({"period 2": gp.steady_state(gp.Oscillator())})
+    >>> [ax.get_title(loc="right") for ax in figure.axes[1:]]
+    ['phase portrait', 'Poincaré section', 'spectrum']
     """
     if not states:
         raise ValueError("states must hold at least one motion, got none")

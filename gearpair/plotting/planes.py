@@ -55,6 +55,13 @@ def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = basins(gp.basins(gp.Oscillator(), [-2.0, 1.0], [0.0, 0.5]))
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['period 1, double-sided', 'period 2, single-sided']
     """
     ax = new_axes(ax, 5.0)
     colours = attractor_colours(result)
@@ -80,6 +87,13 @@ def impact_states(result: xr.Dataset, ax: Axes | None = None, *, worst: bool = F
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = impact_states(gp.basins(gp.Oscillator(), [-2.0, 1.0], [0.0, 0.5]))
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['single-sided', 'double-sided']
     """
     ax = new_axes(ax, 5.0)
     states = list(IMPACT_COLOURS)
@@ -122,6 +136,14 @@ def attractor_points(states: Sequence[SteadyState], ax: Axes) -> Axes:
     -------
     Axes
         With one line of dots for each periodic state.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> osc = gp.Oscillator()
+    >>> ax = attractor_points([gp.steady_state(osc)], basins(gp.basins(osc, [-2.0, 1.0], [0.0, 0.5])))
+    >>> ax.lines[0].get_label(), len(ax.lines[0].get_xdata())
+    ('period 2', 2)
     """
     for state in states:
         if state.period:
@@ -148,6 +170,13 @@ def finite_exponents(result: xr.Dataset, ax: Axes | None = None, *, largest: flo
     -------
     Axes
         With a colour bar beside it.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = finite_exponents(gp.basins(gp.Oscillator(), [-2.0, 1.0], [0.0, 0.5]))
+    >>> ax.get_xlabel(), len(ax.figure.axes)  # the other one is the colour bar's
+    ('initial displacement $X_0$', 2)
     """
     ax = new_axes(ax, 5.0)
     shown = ax.pcolormesh(
@@ -180,6 +209,13 @@ def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     ------
     ValueError
         For a map with another number of axes.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> grid = gp.parameter_map(gp.Oscillator(), {"damping_ratio": [0.05, 0.1], "mesh_frequency": [0.6, 0.7, 0.8]})
+    >>> period_map(grid).images[0].get_size()
+    (2, 3)
     """
     motions = motions_of(result)
     if motions.ndim != 2:

@@ -54,6 +54,15 @@ def dynamic_factors(
     -------
     Axes
         With one line for each run, and strips of the impact states above it.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> drive = gp.GearDrive.from_pair(gp.SpurPair(), pinion_torque_nm=100.0, pinion_speed_rpm=3000.0,
+    ...     backlash_um=80.0, transmission_error_um=5.0, damping_ratio=0.08)
+    >>> ax = dynamic_factors(gp.design.speed_chart(drive, [2000.0, 4000.0], n_starts=2))
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['linear response', 'run up', 'run down']
     """
     ax = new_axes(ax, 4.6)
     speed = chart.speed.values
@@ -163,6 +172,16 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]
     Returns
     -------
     tuple of two Axes
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> from matplotlib import pyplot as plt
+    >>> drive = gp.GearDrive.from_pair(gp.SpurPair(), pinion_torque_nm=100.0, pinion_speed_rpm=3000.0,
+    ...     backlash_um=80.0, transmission_error_um=5.0, damping_ratio=0.08)
+    >>> chart = gp.design.speed_chart(drive, [2000.0, 4000.0], n_starts=2)
+    >>> [ax.get_ylabel() for ax in tooth_loads(chart, tuple(plt.figure().subplots(1, 2)))]
+    ['dynamic transmission error, rms (µm)', 'largest impact velocity (mm/s)']
     """
     left, right = axes
     speed = chart.speed.values
@@ -197,6 +216,15 @@ def tornado(
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> drive = gp.GearDrive.from_pair(gp.SpurPair(), pinion_torque_nm=100.0, pinion_speed_rpm=3000.0,
+    ...     backlash_um=80.0, transmission_error_um=5.0, damping_ratio=0.08)
+    >>> ax = tornado(gp.design.sensitivity(drive, [2000.0, 3000.0], {"damping_ratio": (0.04, 0.16)}))
+    >>> [label.get_text() for label in ax.get_yticklabels()], len(ax.patches)
+    (['damping ratio'], 2)
     """
     ax = new_axes(ax, 2.6)
     values, base = found[outcome].values, float(found[f"base_{outcome}"])
@@ -234,6 +262,15 @@ def rattle(found: IdleRattle, ax: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> drive = gp.GearDrive.from_pair(gp.SpurPair(), pinion_torque_nm=100.0, pinion_speed_rpm=3000.0,
+    ...     backlash_um=80.0, transmission_error_um=5.0, damping_ratio=0.08)
+    >>> found = gp.design.idle_rattle(drive, [300.0, 1500.0], order=2.0, pinion_swing_deg=0.05, drag_torque_nm=0.4)
+    >>> rattle(found).get_ylabel()
+    'largest impact velocity (mm/s)'
     """
     ax = new_axes(ax, 2.8)
     ax.plot(found.speed_rpm, found.impact_velocity, color=INK)

@@ -98,7 +98,16 @@ def legend_name(motion: Motion) -> str:
 
 
 def add_motion_legend(ax: Axes, motions: Iterable[Motion]) -> None:
-    """A row of coloured dots above the axes, in the order of `MOTION_COLOURS`."""
+    """A row of coloured dots above the axes, in the order of `MOTION_COLOURS`.
+
+    Examples
+    --------
+    >>> from gearpair.motion import periodic
+    >>> ax = plt.figure().add_subplot()
+    >>> add_motion_legend(ax, [CHAOS, periodic(2)])
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['period 2', 'chaos']
+    """
     present = {legend_name(motion): motion_colour(motion) for motion in motions}
     names = [name for name in MOTION_COLOURS if name in present] + sorted(present.keys() - MOTION_COLOURS.keys())
     dots = [Line2D([], [], linestyle="", marker="o", markersize=5, color=present[name], label=name) for name in names]

@@ -8,10 +8,8 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from gearpair.article.published import StiffnessRow
 from gearpair.plotting.style import BOUNDARY, INK, LABELS, new_axes
 from gearpair.teeth.finite_elements import MEASURES, FiniteElementBody
 from gearpair.teeth.meshing import MeshStiffness
@@ -47,7 +45,15 @@ LABEL_STIFFNESS = "stiffness per width (N/mm/µm)"
 
 
 def per_width(mesh: MeshStiffness) -> float:
-    """Factor from N/m to N/(mm µm): stiffness per millimetre of face width and micrometre of approach."""
+    """Factor from N/m to N/(mm µm): stiffness per millimetre of face width and micrometre of approach.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> mesh = gp.mesh_stiffness(gp.SpurPair())
+    >>> round(mesh.mean * per_width(mesh), 1)
+    19.2
+    """
     return 1e-6 / mesh.pair.face_width_mm
 
 
@@ -67,6 +73,13 @@ def tooth_outlines(
     -------
     Axes
         With one line for each root, labelled in words, and the base circle, root circle and tip circle.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = tooth_outlines(gp.SpurPair().pinion, roots=["trochoid"])
+    >>> ax.lines[-1].get_label()
+    'fillet cut by the rack'
     """
     ax = new_axes(ax, 3.6)
     pitch = math.pi / gear.teeth
@@ -114,6 +127,13 @@ def compliance_stack(mesh: MeshStiffness, ax: Axes | None = None, *, legend: boo
     -------
     Axes
         With one filled band for each part; compliance times face width, in micrometres per N/mm.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> mesh = gp.mesh_stiffness(gp.SpurPair(), n_phases=50)
+    >>> [band.get_label() for band in compliance_stack(mesh).collections][:3]
+    ['pinion, foundation', 'pinion, shear', 'pinion, bending']
     """
     ax = new_axes(ax, 3.8)
     parts = [name for name in PART_COLOURS if np.any(mesh.compliance_m_per_n[name])]
@@ -152,6 +172,13 @@ def pair_stiffness(mesh: MeshStiffness, ax: Axes | None = None, *, colour: str =
     -------
     Axes
         In N per millimetre of face width and micrometre.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> mesh = gp.mesh_stiffness(gp.SpurPair(), n_phases=50)
+    >>> pair_stiffness(mesh).get_ylabel()
+    'stiffness per width (N/mm/µm)'
     """
     ax = new_axes(ax, 3.0)
     ax.plot(mesh.path, mesh.pair_stiffness_n_per_m * per_width(mesh), color=colour, label=label)
@@ -189,6 +216,14 @@ def mesh_curves(
     -------
     Axes
         In N per millimetre of face width and micrometre, from zero.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> mesh = gp.mesh_stiffness(gp.SpurPair(), n_phases=50)
+    >>> ax = mesh_curves({"34 and 34 teeth": mesh}, n_periods=3)
+    >>> ax.lines[0].get_label(), float(ax.get_xlim()[1])
+    ('34 and 34 teeth', 3.0)
     """
     ax = new_axes(ax, 3.0)
     for k, (name, mesh) in enumerate(meshes.items()):
@@ -230,6 +265,14 @@ def load_shares(
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> mesh = gp.mesh_stiffness(gp.SpurPair(), n_phases=50)
+    >>> ax = load_shares({"34 and 34 teeth": mesh})
+    >>> round(float(ax.lines[0].get_ydata().max()), 6)  # alone it carries all
+    1.0
     """
     ax = new_axes(ax, 2.4)
     for k, (name, mesh) in enumerate(meshes.items()):
@@ -255,6 +298,15 @@ def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Seq
     -------
     list of Axes
         The first has the curve and one line of points for each measure, the second one line for each measure.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> from matplotlib import pyplot as plt
+    >>> body = gp.teeth.finite_element_bodies()["34"]
+    >>> axes = finite_element_check(body, gp.mesh_stiffness(body.pair, n_phases=50), plt.figure().subplots(2, 1))
+    >>> [ax.get_ylabel() for ax in axes][1], len(axes[0].lines)
+    ('deviation (%)', 4)
     """
     upper, lower = axes
     unit = mesh.pair.youngs_modulus_gpa * 1e9 * mesh.pair.face_width_mm * 1e-3
@@ -278,72 +330,3 @@ def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Seq
     lower.set(xlim=(-0.03, mesh.contact_ratio + 0.03))
     upper.legend(loc="upper left")
     return [upper, lower]
-
-
-def stiffness_trends(
-    published: Sequence[StiffnessRow], computed: Mapping[str, Sequence[StiffnessRow]], axes: Sequence[Axes]
-) -> list[Axes]:
-    """Contact ratio, a and b against the gear's teeth: what is published and what is computed.
-
-    Parameters
-    ----------
-    published : sequence of StiffnessRow
-    computed : mapping of str to sequence of StiffnessRow
-        By the name for the legend.
-    axes : sequence of three Axes
-
-    Returns
-    -------
-    list of Axes
-        Each with one line for the article, named first, and one for each entry of `computed`.
-    """
-    colours = ("#D55E00", INK, "#009E73")
-    for ax, name in zip(axes, ("contact_ratio", "a", "b"), strict=True):
-        for k, (label, rows) in enumerate({"the article": published, **computed}.items()):
-            ax.plot(
-                [row.teeth_wheel for row in rows], [getattr(row, name) for row in rows], marker="o" if k else "s",
-                markersize=5, color=colours[k % len(colours)], linestyle="-" if k else "--", label=label,
-            )  # fmt: skip
-        ax.set(xlabel="teeth of the gear $z_2$", title=LABELS[name])
-        ax.set_xticks([row.teeth_wheel for row in published])
-    return list(axes)
-
-
-def contact_ratio_cloud(ratios: ArrayLike, published: Sequence[StiffnessRow], ax: Axes | None = None) -> Axes:
-    """Contact ratio of the first pair and its growth to the last: many tooth systems, and the article.
-
-    Parameters
-    ----------
-    ratios : array_like, shape (n, m)
-        Contact ratios of n tooth systems at the m pairs of the article.
-    published : sequence of StiffnessRow
-        Those m pairs.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-        With one dot for each system and a star for the article.
-    """
-    ax = new_axes(ax, 3.2)
-    values = np.asarray(ratios, dtype=float)
-    first, last = published[0], published[-1]
-    ax.plot(
-        values[:, 0], values[:, -1] - values[:, 0], linestyle="", marker=".", markersize=3, markeredgewidth=0,
-        color=INK, alpha=0.45, rasterized=True,
-    )  # fmt: skip
-    ax.plot(
-        first.contact_ratio, last.contact_ratio - first.contact_ratio, linestyle="", marker="*", markersize=13,
-        color="#D55E00",
-    )  # fmt: skip
-    handles = [
-        Line2D([], [], linestyle="", marker="*", markersize=11, color="#D55E00", label="the article"),
-        Line2D([], [], linestyle="", marker=".", markersize=6, color=INK, label="tooth systems that can run"),
-    ]
-    ax.legend(handles=handles, loc="upper right")
-    ax.axhline(0.0, color=BOUNDARY, linewidth=0.6)
-    ax.set(
-        xlabel=rf"contact ratio at $z_2 = {first.teeth_wheel}$",
-        ylabel=rf"growth to $z_2 = {last.teeth_wheel}$",
-    )
-    return ax

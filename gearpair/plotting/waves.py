@@ -33,6 +33,11 @@ def stiffness_wave(
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> stiffness_wave(StiffnessWave.rectangular()).texts[0].get_text()
+    'mean 0.9464'
     """
     ax = new_axes(ax, 2.6)
     edges = np.concatenate([np.add(wave.edges, k) for k in range(n_periods)] + [[float(n_periods)]])
@@ -69,6 +74,11 @@ def harmonics(
     Returns
     -------
     Axes
+
+    Examples
+    --------
+    >>> harmonics(StiffnessWave.rectangular(), 3).get_xticks().tolist()
+    [1, 2, 3]
     """
     ax = new_axes(ax, 2.6)
     order = np.arange(1, n + 1)
