@@ -9,5 +9,6 @@ matplotlib.use("Agg")
 
 @pytest.fixture(autouse=True)
 def closed_figures():
+    """Figures that an example opens are closed behind it."""
     yield
     plt.close("all")
