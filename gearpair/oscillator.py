@@ -186,7 +186,7 @@ class Oscillator:
         return total
 
     @cached_property
-    def _flow_parameters(self) -> Parameters:
+    def flow_parameters(self) -> Parameters:
         """What the kernels take: plain floats and arrays."""
         return Parameters(
             self.mean_force,
@@ -200,9 +200,9 @@ class Oscillator:
         )
 
     @cached_property
-    def _cells(self) -> Cells:
+    def cells(self) -> Cells:
         """The tables that the kernels march over."""
-        return build_cells(self._flow_parameters)
+        return build_cells(self.flow_parameters)
 
 
 def check_harmonics(name: str, harmonics: Any, lowest: int = 2) -> tuple[Harmonic, ...]:

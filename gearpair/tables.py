@@ -383,6 +383,6 @@ def series_table(osc: Oscillator) -> Table:
         ["degree of the series", f"{DEGREE}"],
         ["reach: the most that a rate turns in a cell", f"{REACH:.1f}"],
         ["first neglected term", f"{neglected:.0e}"],
-        ["cells in the mesh period", f"{len(osc._cells.level)}"],
+        ["cells in the mesh period", f"{len(osc.cells.level)}"],
     ]
     return Table(["of the closed form", "value"], rows)

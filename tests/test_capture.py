@@ -26,7 +26,7 @@ CYCLES = {
 def neighbourhoods(osc, x, v):
     state = gp.steady_state(osc, x, v)
     rows = np.empty((state.period, COLUMNS))
-    assert surround(osc._cells, *map(float, state.points[0]), state.period, 0.0, rows, np.empty(TERMS))
+    assert surround(osc.cells, *map(float, state.points[0]), state.period, 0.0, rows, np.empty(TERMS))
     return state, rows
 
 

@@ -35,7 +35,7 @@ def test_random_oscillators_against_seventy_digits(seed):
             v,
         )
         m = np.eye(2)
-        status, x1, v1 = march_tangent(osc._cells, x, v, 1, m, np.empty(TERMS))
+        status, x1, v1 = march_tangent(osc.cells, x, v, 1, m, np.empty(TERMS))
         assert status == 0 and (x1, v1) == tuple(map(float, gp.stroboscopic_map(osc, x, v)))
         slowest = min([1.0, *(abs(u) for _t, _side, u, _contact in expected.crossings)])
         truth = np.array(expected.monodromy.tolist(), dtype=float)
@@ -116,7 +116,7 @@ def test_integrators_honour_them():
 
 def test_a_block_takes_its_cells_in_one_step():
     """The cells of five harmonics are narrower, the blocks that the march takes are those of one."""
-    many, one = LOADED._cells, gp.Oscillator()._cells
+    many, one = LOADED.cells, gp.Oscillator().cells
     assert len(many.level) > 2 * len(one.level) and len(many.block_width) == len(one.block_width) == len(one.level)
     assert np.allclose(many.block_width, one.block_width, rtol=1e-15)
     assert np.array_equal(one.block_maps, one.maps)
@@ -128,7 +128,7 @@ def test_the_spread_of_a_block_bounds_the_distance_to_its_cubic():
     for _ in range(20):
         osc, _x, _v = random_case(rng)
         osc = with_harmonics(rng, osc).replace(mean_force=0.0)
-        cells = osc._cells
+        cells = osc.cells
         b = int(rng.integers(len(cells.block_width)))
         first, last = cells.blocks[b], cells.blocks[b + 1]
         x, v = rng.normal(0.0, 50.0, 2)  # far out: contact throughout

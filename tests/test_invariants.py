@@ -30,7 +30,7 @@ MANY = settings(max_examples=150, deadline=None, derandomize=True)
 
 def monodromy(osc, start, n):
     m = np.eye(2)
-    status, x, v = march_tangent(osc._cells, *start, n, m, np.empty(TERMS))
+    status, x, v = march_tangent(osc.cells, *start, n, m, np.empty(TERMS))
     assert status == 0
     return m, x, v
 
@@ -131,7 +131,7 @@ def test_lyapunov_exponents_by_qr(osc, start):
     assume(osc.damping_ratio <= 0.3)  # beyond, the second diagonal entry is rounding
     blocks, per_block = 4, 25
     status, _x, _v, largest, smallest, _error = exponents(
-        osc._cells, *start, blocks * per_block, blocks, np.empty(TERMS)
+        osc.cells, *start, blocks * per_block, blocks, np.empty(TERMS)
     )
     assume(status == 0)
     x, v = start

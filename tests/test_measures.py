@@ -30,7 +30,7 @@ COLLIDING = {
 def measured(osc, x, v, n_periods):
     """The measures of any stretch of motion, by name."""
     row = np.empty(N_MEASURES)
-    assert measure(osc._cells, x, v, n_periods, np.empty(TERMS), row) == 0
+    assert measure(osc.cells, x, v, n_periods, np.empty(TERMS), row) == 0
     return {name: float(c[0]) for name, c in measure_columns(row[None], np.array([osc.mean_force])).items()}
 
 

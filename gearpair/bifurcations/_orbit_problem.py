@@ -40,8 +40,8 @@ class OrbitProblem:
         """The kernels' parameters at `u`."""
         changes = dict(zip(self.names, self.values(u).tolist(), strict=True))
         if all(name in SCALARS for name in changes):  # the quick way, free to step a little out of range
-            return self.osc._flow_parameters._replace(**changes)
-        return self.osc.replace(**changes)._flow_parameters
+            return self.osc.flow_parameters._replace(**changes)
+        return self.osc.replace(**changes).flow_parameters
 
     def equations(self, u: Vector) -> tuple[Vector, NDArray[np.float64]] | None:
         """Residual and Jacobian; None where the motion cannot be followed."""

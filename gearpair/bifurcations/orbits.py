@@ -147,7 +147,7 @@ def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> Periodic
     """
     x, v = check_start(x, v)
     period = check_count("period", period)
-    converged, x, v, residual = newton(osc._cells, x, v, period, np.empty((2, 2)), np.empty(TERMS))
+    converged, x, v, residual = newton(osc.cells, x, v, period, np.empty((2, 2)), np.empty(TERMS))
     if not converged:
         return PeriodicOrbit(osc, NewtonStatus.DIVERGED, period, np.array([[x, v]]), residual)
     return orbit_at(osc, x, v, _minimal_period(osc, x, v, period))
@@ -156,7 +156,7 @@ def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> Periodic
 def _minimal_period(osc: Oscillator, x: float, v: float, period: int) -> int:
     series, here = np.empty(TERMS), (x, v)
     for shorter in range(1, period):
-        _, *here = march(osc._cells, *here, 1, series)
+        _, *here = march(osc.cells, *here, 1, series)
         if period % shorter == 0 and max(abs(here[0] - x), abs(here[1] - v)) <= SAME_POINT * max(1.0, abs(x), abs(v)):
             return shorter
     return period
@@ -164,11 +164,11 @@ def _minimal_period(osc: Oscillator, x: float, v: float, period: int) -> int:
 
 def orbit_at(osc: Oscillator, x: float, v: float, period: int) -> PeriodicOrbit:
     """Describe the orbit of `period` through (x, v), which Newton's method has found."""
-    cycle = describe_cycle(osc._flow_parameters, x, v, period)
+    cycle = describe_cycle(osc.flow_parameters, x, v, period)
     lowest = int(np.argmin(cycle.points[:, 0]))
     if lowest:
         x, v = cycle.points[lowest].tolist()
-        cycle = describe_cycle(osc._flow_parameters, x, v, period)
+        cycle = describe_cycle(osc.flow_parameters, x, v, period)
     return PeriodicOrbit(
         oscillator=osc,
         status=NewtonStatus.CONVERGED,
@@ -226,7 +226,7 @@ def find_orbits(
     orbits: list[PeriodicOrbit] = []
     for period in range(1, max_period + 1):
         ends, found = np.empty_like(starts), np.zeros(n_starts, np.bool_)
-        on_all_cores(newton_starts, (osc._cells, starts, period, ends, found), n_starts, STARTS_AT_ONCE)
+        on_all_cores(newton_starts, (osc.cells, starts, period, ends, found), n_starts, STARTS_AT_ONCE)
         for x_end, v_end in ends[found].tolist():
             if not any(lies_on((x_end, v_end), orbit.points) for orbit in orbits):
                 orbits.append(orbit_at(osc, x_end, v_end, _minimal_period(osc, x_end, v_end, period)))

@@ -206,7 +206,7 @@ def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Se
     if xs.ndim:
         raise ValueError(f"x and v must be single numbers, got shape {xs.shape}")
     n_periods = check_count("n_periods", n_periods)
-    cells = osc._cells
+    cells = osc.cells
     series = np.empty(TERMS)
     x, v = float(xs), float(vs)
     region = first_region(cells, x, v)

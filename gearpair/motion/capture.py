@@ -48,7 +48,7 @@ def known_attractors(osc: Oscillator, starts: NDArray[np.float64], settings: Set
     settled = Settled(*(column[rows] for column in out))
     settled.way[:] = np.nan
     neighbourhoods = np.empty((int(settled.period.sum()), COLUMNS))
-    filled = surround_rows(osc._cells, settled.points[:, 0].copy(), settled.period, neighbourhoods)
+    filled = surround_rows(osc.cells, settled.points[:, 0].copy(), settled.period, neighbourhoods)
     return Known(settled, neighbourhoods[:filled].copy())
 
 
@@ -70,7 +70,7 @@ def settle_from(
     out = room(len(starts), settings)
     n_transient = transient_periods(osc) if settings.n_transient is None else settings.n_transient
     most = settings.share_of_work(len(starts)) if share is None else share
-    arguments = (osc._cells, starts, n_transient, settings.max_period, settings.n_exponent, most, known, out)
+    arguments = (osc.cells, starts, n_transient, settings.max_period, settings.n_exponent, most, known, out)
     with stoppable(out, progress) as done:
         on_all_cores(settle_starts, arguments, len(starts), BLOCK if cores else max(len(starts), 1), done)
     return out

@@ -117,7 +117,7 @@ def impact_measures(state: SteadyState, *, n_periods: int = 2000) -> ImpactMeasu
     row = np.empty(N_MEASURES)
     x, v = map(float, state.points[0])
     span = state.period or check_count("n_periods", n_periods)
-    status = measure(state.oscillator._cells, x, v, span, np.empty(TERMS), row)
+    status = measure(state.oscillator.cells, x, v, span, np.empty(TERMS), row)
     assert status == OK, "the same motion stayed bounded while it settled"
     columns = measure_columns(row[np.newaxis], np.array([state.oscillator.mean_force]))
     return ImpactMeasures(**{name: float(column[0]) for name, column in columns.items()})

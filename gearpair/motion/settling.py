@@ -179,7 +179,7 @@ def lanes_of(oscillators: Sequence[Oscillator], starts: NDArray[np.float64], set
         ),
         np.array([(*o.stiffness.edges, 1.0) for o in oscillators]),
         np.array([o.stiffness.levels for o in oscillators]),
-        np.array([o._flow_parameters.harmonics for o in oscillators]),
+        np.array([o.flow_parameters.harmonics for o in oscillators]),
         np.array(starts, dtype=float),
         np.array([transient_periods(o) if settings.n_transient is None else settings.n_transient for o in oscillators]),
     )

@@ -54,9 +54,9 @@ def lyapunov_exponents(
     n_periods = check_count("n_periods", n_periods)
     n_transient = check_count("n_transient", n_transient, at_least=0)
     series = np.empty(TERMS)
-    status, x, v = march(osc._cells, x, v, n_transient, series)
+    status, x, v = march(osc.cells, x, v, n_transient, series)
     if status == OK:
-        status, x, v, largest, smallest, _error = exponents(osc._cells, x, v, n_periods, 1, series)
+        status, x, v, largest, smallest, _error = exponents(osc.cells, x, v, n_periods, 1, series)
     raise_unless_ok(status, n_transient + n_periods)
     return np.array([largest, smallest])
 

@@ -145,7 +145,7 @@ def stroboscopic_map(
     starts = np.stack([xs.ravel(), vs.ravel()], axis=1)
     ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
     block = max(1, PERIODS_AT_ONCE // max(n, 1))
-    on_all_cores(march_starts, (osc._cells, starts, n, ends, status), len(starts), block)
+    on_all_cores(march_starts, (osc.cells, starts, n, ends, status), len(starts), block)
     for code, remedy in CAPPED.items():
         if np.any(status == code):
             i = int(np.argmax(status == code))
@@ -201,14 +201,14 @@ def trajectory(
     n_periods = check_count("n_periods", n_periods)
     n_transient = check_count("n_transient", n_transient, at_least=0)
     samples_per_period = check_count("samples_per_period", samples_per_period)
-    status, x, v = march(osc._cells, x, v, n_transient, np.empty(TERMS))
+    status, x, v = march(osc.cells, x, v, n_transient, np.empty(TERMS))
     raise_unless_ok(status, n_transient)
     samples = np.empty((n_periods * samples_per_period + 1, 2))
     crossings = np.empty((0, 4))
-    status, done, n = record(osc._cells, x, v, n_periods, samples_per_period, samples, crossings)
+    status, done, n = record(osc.cells, x, v, n_periods, samples_per_period, samples, crossings)
     raise_unless_ok(status, n_transient + done)
     crossings = np.empty((n, 4))
-    record(osc._cells, x, v, n_periods, samples_per_period, samples, crossings)
+    record(osc.cells, x, v, n_periods, samples_per_period, samples, crossings)
     impacts = Impacts(
         crossings[:, 0] * osc.period, crossings[:, 1].astype(int), crossings[:, 2].copy(), crossings[:, 3] == 1.0
     )
