@@ -9,5 +9,6 @@ matplotlib.use("Agg")
 
 @pytest.fixture(autouse=True)
 def closed_figures():
+    """No figure outlives its test."""
     yield
     plt.close("all")
