@@ -9,6 +9,6 @@ matplotlib.use("Agg")
 
 @pytest.fixture(autouse=True)
 def closed_figures():
-    """No figure outlives its test."""
+    """Figures that an example opens are closed behind it."""
     yield
     plt.close("all")

@@ -56,7 +56,7 @@ def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
         pixels[states == state] = colour
     ax = _image(result, pixels, ax)
     if legend:
-        name_colours(ax, {IMPACT_NAMES[state]: colour for state, colour in colours.items()}, columns=len(colours))
+        name_colours(ax, {IMPACT_NAMES[state]: colour for state, colour in colours.items()})
     return ax
 
 
@@ -127,7 +127,7 @@ def _ends(values: np.ndarray) -> tuple[float, float]:
 
 
 def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
-    """The shares of all attractors along a parameter, stacked, with a line at each tipping point.
+    """The shares of all attractors along a parameter, stacked, with a triangle at each tipping point.
 
     Parameters
     ----------
@@ -140,8 +140,8 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
     Returns
     -------
     Axes
-        With one filled step for each attractor, in the colour of the motion that it mostly is, and a dotted line where
-        one has tipped to another.
+        With one filled step for each attractor, in the colour of the motion that it mostly is, and a triangle at the
+        top where one has tipped to another.
 
     Examples
     --------
@@ -172,8 +172,7 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
         below = below + share
     for i in np.flatnonzero(np.any(result.tips_to.values != -1, axis=1)):
         between = 0.5 * (values[i - 1] + values[i])
-        ax.axvline(between, color="white", linewidth=2.2)
-        ax.axvline(between, color="black", linewidth=0.8, linestyle=(0, (1, 1.6)))
+        ax.plot(between, 1.0, marker="v", markersize=4, color="black", clip_on=False, label="tipping point")
     ax.set(xlabel=LABELS[parameter], ylabel="share of the starts", xlim=(values.min(), values.max()), ylim=(0.0, 1.0))
     if legend:
         name_colours(ax, {name: to_rgb(colour) for name, colour in seen.items()}, columns=min(len(seen), 7))
