@@ -11,15 +11,7 @@ from gearpair import plotting
 from gearpair.article import published
 from gearpair.motion import periodic
 
-matplotlib.use("Agg")
-
 OSC = gp.Oscillator()
-
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
 
 
 @pytest.fixture(scope="module")

@@ -1,14 +1,11 @@
 """Pictures of branches and curves show their results' own numbers."""
 
-import matplotlib
 import numpy as np
 import pytest
 from matplotlib.legend import Legend
 
 import gearpair as gp
 from gearpair import plotting
-
-matplotlib.use("Agg")
 
 
 @pytest.fixture(scope="module")

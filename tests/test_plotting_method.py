@@ -1,13 +1,10 @@
 """The anatomy of the exact flow is the engine's, and pictures of the method show their results' own numbers."""
 
-import matplotlib
 import numpy as np
 import pytest
 
 import gearpair as gp
 from gearpair import plotting
-
-matplotlib.use("Agg")
 
 CHAOTIC = gp.Oscillator(mesh_frequency=1.219)
 

@@ -1,10 +1,5 @@
 """Pictures of a reproduction show what they were given."""
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -13,12 +8,6 @@ from gearpair import plotting
 from gearpair.article import published
 from gearpair.methods import Integrator
 from gearpair.motion import periodic
-
-
-@pytest.fixture(autouse=True)
-def no_figures_left():
-    yield
-    plt.close("all")
 
 
 def test_score_ranking_has_a_dot_for_every_reading():

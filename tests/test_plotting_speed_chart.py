@@ -8,19 +8,11 @@ from matplotlib import pyplot as plt
 import gearpair as gp
 from gearpair import design, plotting
 
-matplotlib.use("Agg")
-
 PAIR = gp.SpurPair(pinion_teeth=28, gear_teeth=57, module_mm=3.0, face_width_mm=25.0)
 DRIVE = gp.GearDrive.from_pair(
     PAIR, pinion_torque_nm=120.0, pinion_speed_rpm=1e3, backlash_um=100.0, transmission_error_um=4.0, damping_ratio=0.05
 )
 SPEEDS = np.linspace(6000.0, 9000.0, 21)
-
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
 
 
 @pytest.fixture(scope="module")

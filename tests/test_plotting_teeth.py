@@ -1,6 +1,5 @@
 """Pictures of teeth and of the mesh stiffness show their results' own numbers."""
 
-import matplotlib
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -10,15 +9,7 @@ from gearpair.article import published
 from gearpair.teeth.finite_elements import MEASURES, finite_element_bodies
 from gearpair.teeth.spurpair import SpurPair
 
-matplotlib.use("Agg")
-
 THREE_PAIRS = SpurPair(pinion_teeth=40, gear_teeth=60, addendum=1.3, clearance=0.2, tip_radius=0.1)
-
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
 
 
 @pytest.fixture(scope="module")
