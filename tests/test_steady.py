@@ -127,6 +127,7 @@ def test_statuses_are_strings_with_a_remedy_each():
         "unsettled",
         "escaped",
         "capped",
+        "exhausted",
         "not_run",
     }
     assert all(len(status.remedy) > 20 for status in Status)
