@@ -95,7 +95,11 @@ def compare_attractors(
     for value, plane in planes.items():
         here = next((r for r in ranges if value in r or value == ranges[-1].upper == r.upper), None)
         counts = Counter(attractor_motions(plane, least_share))
-        texts = [str(motion) if count == 1 else f"{motion} ({count} of them)" for motion, count in counts.items()]
+        # Cycles can be counted. How many chaotic sets there are hangs on how long they were looked at.
+        texts = [
+            f"{motion} ({count} of them)" if motion.period and count > 1 else str(motion)
+            for motion, count in counts.items()
+        ]
         item, motion = ("–", "–") if here is None else (here.item, str(here.motion))
         rows.append([f"{value:.{digits}f}", item, motion, "; ".join(texts)])
     return Table([symbol(ranges[0].parameter), "item", "published", "attractors found"], rows)
