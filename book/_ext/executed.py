@@ -20,7 +20,7 @@ from sphinx.util.docutils import SphinxDirective
 CHAPTERS = "book/chapters"
 THUMBNAILS = f"{CHAPTERS}/thumbnails"  # beside the executed chapters: generated, and not kept
 WIDTH = 720  # pixels: sharp on a screen of twice the density
-VERDICTS = ("reproduction", "verdict")  # the chapter, and the last word of its table's head
+VERDICTS = ("reproduction", "verdict")  # the chapter, and the column of its table
 
 
 class Executed(SphinxDirective):
@@ -104,13 +104,15 @@ class Claims(Executed):
         for cell in self.cells(chapter):
             for output in cell.outputs:
                 rows = Rows(output.get("data", {}).get("text/html", "")).rows
-                if rows and rows[0][-1] == word:
-                    return [self._table([row for row in rows[1:] if row[0][0] in self.arguments])]
+                if rows and word in rows[0]:
+                    column = rows[0].index(word)
+                    return [self._table([row for row in rows[1:] if row[0][0] in self.arguments], column)]
         raise self.error(f"chapter {chapter!r} has no table of verdicts")
 
-    def _table(self, rows: list[list[str]]) -> nodes.Node:
+    def _table(self, rows: list[list[str]], column: int) -> nodes.Node:
         marks = "".join(
-            f'<tr><td>{row[0]}</td><td>{row[1]}</td><td class="verdict {row[-1]}">{row[-1]}</td></tr>\n' for row in rows
+            f'<tr><td>{row[0]}</td><td>{row[1]}</td><td class="verdict {row[column]}">{row[column]}</td></tr>\n'
+            for row in rows
         )
         head = "<tr><th>item</th><th>the article</th><th>verdict</th></tr>"
         table = f'<table class="table claims"><thead>{head}</thead>\n<tbody>\n{marks}</tbody></table>'

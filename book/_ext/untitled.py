@@ -1,4 +1,4 @@
-"""Lets the links from code (sphinx-codeautolink) pass sections without a title, which exercises and solutions are made of."""
+"""Lets the links from code (sphinx-codeautolink) pass the untitled sections that exercises are made of."""
 
 from __future__ import annotations
 
