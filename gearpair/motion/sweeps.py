@@ -161,7 +161,7 @@ def parameter_map(
     --------
     >>> grid = parameter_map(Oscillator(), {"mesh_frequency": [0.6, 0.7], "damping_ratio": [0.1]}, measures=True)
     >>> grid.period.values.tolist(), grid.drive_impacts.values.tolist()
-    ([[1], [1]], [[1.0], [1.0]])
+    ([[1], [1]], [[0.0], [1.0]])
     """
     if not axes:
         raise ValueError("axes must name at least one parameter and its values, got none")

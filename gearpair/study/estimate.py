@@ -59,7 +59,10 @@ def _cost(values: Mapping[str, Any], stands_for: Mapping[str, str]) -> float:
 
 def warning(chapter: Chapter, values: Mapping[str, Any], seconds: float | None) -> str | None:
     """What to say before a long run: how much more it is, and how long where the chapter's own time is known."""
-    ratio = work_ratio(chapter, values)
+    try:
+        ratio = work_ratio(chapter, values)
+    except ValueError:  # a value out of range, which the chapter itself is about to refuse
+        return None
     if ratio < WORTH_TELLING:
         return None
     told = f"{chapter.name}: with these parameters about {ratio:.2g} times the work of the chapter as it stands"
