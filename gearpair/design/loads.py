@@ -52,7 +52,7 @@ def measure_motion(drive: GearDrive, state: SteadyState) -> dict[str, float]:
     ...     mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
     >>> loads = measure_motion(drive, steady_state(drive.oscillator()))
     >>> round(loads["mesh_force"]), round(loads["dynamic_factor"], 2), round(loads["impact_rate"])
-    (9069, 3.62, 4533)
+    (9655, 3.85, 4533)
     """
     if state.status in (Status.ESCAPED, Status.CAPPED, Status.NOT_RUN):
         return dict.fromkeys(MEASURES, np.nan)
