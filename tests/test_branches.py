@@ -315,3 +315,15 @@ def test_wave_parameters_can_be_continued():
 def test_bad_input_is_named(lower, upper, parameter, sentence):
     with pytest.raises(ValueError, match=sentence):
         gp.continue_orbit(orbit_of(BASELINE), parameter, lower, upper)
+
+
+def test_a_branch_counts_the_contacts_of_each_side():
+    """The baseline's period 2 strikes the drive side twice in its cycle and never the coast side."""
+    orbit = gp.periodic_orbit(gp.Oscillator(), 0.34629, -0.25625, 2)
+    branch = gp.continue_orbit(orbit, "mesh_frequency", 0.7, 0.71)
+    np.testing.assert_array_equal(branch.contacts, np.tile(orbit.contacts, (len(branch.values), 1)))
+    impacts = gp.trajectory(gp.Oscillator(), *map(float, orbit.points[0]), 2).impacts
+    assert orbit.contacts == (
+        np.sum(impacts.contact & (impacts.side > 0)),
+        np.sum(impacts.contact & (impacts.side < 0)),
+    )
