@@ -327,3 +327,10 @@ def test_a_branch_counts_the_contacts_of_each_side():
         np.sum(impacts.contact & (impacts.side > 0)),
         np.sum(impacts.contact & (impacts.side < 0)),
     )
+
+
+def test_a_cascade_has_as_many_levels_as_asked_for():
+    branch = gp.continue_orbit(gp.periodic_orbit(gp.Oscillator(), 0.34629, -0.25625, 2), "mesh_frequency", 0.7, 0.8)
+    flip = next(b for b in branch.bifurcations if b.kind == "flip")
+    assert gp.bifurcations.doubling_cascade(flip, 1) == [flip]
+    assert [b.period for b in gp.bifurcations.doubling_cascade(flip, 2)] == [2, 4]
