@@ -112,7 +112,7 @@ def _article(site: Path, name: str) -> Tag:
     for summary in article.select("details > summary"):
         folded = summary.find_parent("details")
         assert folded is not None
-        if "source" in summary.text:  # code that the page hides; folded output is shown
+        if "the code" in summary.text:  # code that the page hides; folded output is shown
             folded.decompose()
         else:
             folded["open"] = ""
@@ -143,7 +143,8 @@ def _link(name: str, href: str) -> str:
     if parts.scheme or not (parts.path or parts.fragment):
         return href
     target = _from_root(name, unquote(parts.path)).removesuffix(".html") if parts.path else name
-    return f"#{_slug(target)}--{parts.fragment}" if parts.fragment else f"#{_slug(target)}"
+    place = "" if "=" in parts.fragment else parts.fragment  # a state of the explorer is no place on paper
+    return f"#{_slug(target)}--{place}" if place else f"#{_slug(target)}"
 
 
 def _from_root(name: str, path: str) -> str:
