@@ -27,6 +27,7 @@ TOGGLE = "<script>var togglebuttonSelector = '.toggle';</script>"
         ('<th style="x"></th><th>m</th>', '<td style="x"></td><th>m</th>'),
         ('<i id="search-input"><b id="search-input">', '<i id="search-input"><b id="search-field">'),
         ("<i>Show code cell source</i><b>Hide code cell outputs</b>", "<i>Show the code</i><b>Hide the result</b>"),
+        ('<section id="solution-content">a</section>', "<section>a</section>"),
         ("<p>nothing to mend</p>", "<p>nothing to mend</p>"),
     ],
 )

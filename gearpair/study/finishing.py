@@ -35,6 +35,7 @@ MENDS: tuple[tuple[str, str, str], ...] = (
     ),
     (r"<th([^>]*)></th>", r"<td\1></td>", "a head without words is none"),
     (r' role="doc-biblioentry"', ' role="listitem"', "deprecated, and no child of a list"),
+    (r'<section id="(exercise|solution)-content">', "<section>", "one name for every exercise of a page"),
     (r'(id="search-input".*)id="search-input"', r'\1id="search-field"', "the page of the search has the field twice"),
     (r"(Show|Hide) code cell source", r"\1 the code", "said some thirty times a chapter, it is said in plain words"),
     (r"(Show|Hide) code cell outputs?", r"\1 the result", "the same"),
