@@ -20,6 +20,7 @@ MENDS: tuple[tuple[str, str, str], ...] = (
     (r'<script type="text/x-thebe-config">.*?</script>\s*', "", "the same"),
     (r"<script>kernelName = [^<]*</script>\s*", "", "the same"),
     (r"(<script>var togglebuttonSelector[^<]*</script>)(?=.*?\1)", "", "written twice"),
+    (r'<link rel="preload" as="font"[^>]*>\s*', "", "a page opened from a file may not, and says so in the console"),
     (r'<meta name="viewport"[^>]*>\s*(?=.*?<meta name="viewport")', "", "written three times"),
     (
         r'<div class="bd-sidebar-primary bd-sidebar',
