@@ -19,7 +19,11 @@ SPEEDS = (40, 160)
 # Too small to change the motion, so that what they cost is what the harmonics themselves cost.
 FIVE_HARMONICS = tuple((order, 1e-9, 0.3) for order in (2, 3, 4, 5))
 FREQUENCIES = (0.7, 0.95, 1.6, 2.2)
-SPREAD = {"restarted": ("diagram from one start, 200 values", 200), "grid": ("200 x 200 starts", 200), "plane": ("speed and damping, 1500 motions", 1500)}
+SPREAD = {
+    "restarted": ("diagram from one start, 200 values", 200),
+    "grid": ("200 x 200 starts", 200),
+    "plane": ("speed and damping, 1500 motions", 1500),
+}
 STARTS = {
     "Python alone": "",
     "import gearpair": "import gearpair",
