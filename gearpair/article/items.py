@@ -328,7 +328,7 @@ def start_items(printed: Hypothesis, best: Hypothesis) -> list[Verdict]:
         for item, state in {"I1": "none_drive", "I2": "single_drive", "I3": "double"}.items()
     }
     return [
-        *(Verdict(item, *texts, "definition") for item, texts in met.items()),
+        *(Verdict(item, as_printed, as_best, "definition") for item, (as_printed, as_best) in met.items()),
         both(
             "I4",
             attractors,
