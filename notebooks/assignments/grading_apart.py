@@ -12,6 +12,7 @@ import io
 import traceback
 
 import numpy as np
+from nbclient.exceptions import CellTimeoutError, DeadKernelError
 from nbformat.v4 import new_output
 from nbgrader.api import Gradebook
 from nbgrader.preprocessors import Execute
@@ -27,7 +28,9 @@ def _report(names=%r):
     display({%r: report(names, globals())}, raw=True)
 _report()
 """
-STOPPED = "not run: two cells before this one ran for longer than is allowed"
+GIVEN = {"np": np, "gp": gp, "teaching": teaching}  # what a test has beside the answers and the student's id
+STOPPED = "not run: a cell before this one ended the kernel or could not be stopped, or two were stopped"
+GONE = "the kernel died in this cell, or could not be stopped"
 MOST_STOPS = 2
 
 
@@ -44,8 +47,7 @@ class GradeApart(Execute):
             graded = {cell.name for cell in notebook.grade_cells if cell.cell_type == "code"}
             cells = [cell for cell in notebook.source_cells if cell.name in graded and cell.locked]
             self.tests = {cell.name: cell.source for cell in cells}
-        self.given = {"np": np, "gp": gp, "teaching": teaching, "student_id": self.student_id}
-        self.wanted = answers_wanted(self.tests.values(), self.given)
+        self.wanted = answers_wanted(self.tests.values())
         nb, resources = super().preprocess(nb, resources, *args, **kwargs)
         self._mark(nb)
         return nb, resources
@@ -66,7 +68,12 @@ class GradeApart(Execute):
         if self.stops >= MOST_STOPS:
             cell.outputs = [new_output("error", ename="NotRun", evalue=STOPPED, traceback=[STOPPED])]
             return
-        super().preprocess_cell(cell, resources, index)
+        try:
+            super().preprocess_cell(cell, resources, index)
+        except (CellTimeoutError, DeadKernelError):  # it hears no interrupt, or is gone: what it said before counts
+            cell.outputs.append(new_output("error", ename="KernelGone", evalue=GONE, traceback=[GONE]))
+            self.stops = MOST_STOPS
+            return
         self.stops += any(output.get("ename") == "CellTimeoutError" for output in cell.outputs)
 
     def _reported(self, cell):
@@ -78,13 +85,9 @@ class GradeApart(Execute):
         return {name: answers.get(name) for name in self.wanted}
 
     def _mark(self, nb):
-        """Run the tests in the order of the assignment, wherever the student moved them; they share their variables."""
         cells = {test_name(cell): cell for cell in nb.cells if cell.cell_type == "code"}
-        variables = dict(self.given)
-        for name, test in self.tests.items():
-            if name in cells:
-                variables |= {**self.answers[name], **self.given}
-                cells[name].outputs = run_test(test, variables)
+        for name, outputs in run_tests(self.tests, self.answers, self.student_id):
+            cells[name].outputs = outputs
 
 
 def test_name(cell):
@@ -92,14 +95,27 @@ def test_name(cell):
     return cell.metadata.get("nbgrader", {}).get("grade_id")
 
 
-def answers_wanted(tests, given):
-    """The variables that tests take from the student: those they read and no test defines."""
+def answers_wanted(tests):
+    """The variables that tests take from the student: those they read, are not given and no test defines."""
     nodes = [node for test in tests for node in ast.walk(ast.parse(test))]
     names = [node for node in nodes if isinstance(node, ast.Name)]
     set_here = {node.id for node in names if not isinstance(node.ctx, ast.Load)}
-    set_here |= {node.arg for node in nodes if isinstance(node, ast.arg)} | set(given)
+    set_here |= {node.arg for node in nodes if isinstance(node, ast.arg)} | {*GIVEN, "student_id"}
     read = {node.id for node in names if isinstance(node.ctx, ast.Load)}
     return sorted(name for name in read - set_here if not hasattr(builtins, name))
+
+
+def run_tests(tests, answers, student_id):
+    """Run the tests that have answers, in the order of the assignment, wherever the student moved them.
+
+    Yields the name and the outputs of each; they share their variables.
+    """
+    given = {**GIVEN, "student_id": student_id}
+    variables = {}
+    for name, test in tests.items():
+        if name in answers:
+            variables |= {**answers[name], **given}
+            yield name, run_test(test, variables)
 
 
 def run_test(test, variables):
