@@ -11,14 +11,10 @@ import contextlib
 import io
 import traceback
 
-import numpy as np
 from nbclient.exceptions import CellTimeoutError, DeadKernelError
 from nbformat.v4 import new_output
 from nbgrader.api import Gradebook
 from nbgrader.preprocessors import Execute
-
-import gearpair as gp
-from gearpair import teaching
 
 MIME = "application/vnd.gearpair.answers+json"
 ASK = """
@@ -28,7 +24,7 @@ def _report(names=%r):
     display({%r: report(names, globals())}, raw=True)
 _report()
 """
-GIVEN = {"np": np, "gp": gp, "teaching": teaching}  # what a test has beside the answers and the student's id
+GIVEN = ("np", "gp", "teaching", "student_id")  # what a test has beside the answers, see `given`
 STOPPED = "not run: a cell before this one ended the kernel or could not be stopped, or two were stopped"
 GONE = "the kernel died in this cell, or could not be stopped"
 MOST_STOPS = 2
@@ -77,8 +73,10 @@ class GradeApart(Execute):
         self.stops += any(output.get("ename") == "CellTimeoutError" for output in cell.outputs)
 
     def _reported(self, cell):
+        from gearpair.teaching import read_report
+
         texts = [output.data[MIME] for output in cell.outputs if MIME in output.get("data", {})]
-        answers = teaching.read_report(texts[-1]) if texts and isinstance(texts[-1], str) else {}
+        answers = read_report(texts[-1]) if texts and isinstance(texts[-1], str) else {}
         typed = answers.pop("student_id", None)
         if isinstance(typed, str) and typed.strip().lower() != self.student_id.strip().lower():
             self.log.warning("the notebook of %s was worked on with the id %r", self.student_id, typed)
@@ -100,9 +98,19 @@ def answers_wanted(tests):
     nodes = [node for test in tests for node in ast.walk(ast.parse(test))]
     names = [node for node in nodes if isinstance(node, ast.Name)]
     set_here = {node.id for node in names if not isinstance(node.ctx, ast.Load)}
-    set_here |= {node.arg for node in nodes if isinstance(node, ast.arg)} | {*GIVEN, "student_id"}
+    set_here |= {node.arg for node in nodes if isinstance(node, ast.arg)} | set(GIVEN)
     read = {node.id for node in names if isinstance(node.ctx, ast.Load)}
     return sorted(name for name in read - set_here if not hasattr(builtins, name))
+
+
+def given(student_id):
+    """What every test has; imported here, since most of nbgrader's commands run no test and need not wait for it."""
+    import numpy as np
+
+    import gearpair as gp
+    from gearpair import teaching
+
+    return dict(zip(GIVEN, (np, gp, teaching, student_id), strict=True))
 
 
 def run_tests(tests, answers, student_id):
@@ -110,11 +118,10 @@ def run_tests(tests, answers, student_id):
 
     Yields the name and the outputs of each; they share their variables.
     """
-    given = {**GIVEN, "student_id": student_id}
-    variables = {}
+    always, variables = given(student_id), {}
     for name, test in tests.items():
         if name in answers:
-            variables |= {**answers[name], **given}
+            variables |= {**answers[name], **always}
             yield name, run_test(test, variables)
 
 
