@@ -1,9 +1,13 @@
 """The command line: what it prints, and one sentence for whatever is wrong."""
 
+from pathlib import Path
+
 import nbformat
 import pytest
 
+from gearpair.study.chapters import Chapter, Parameter
 from gearpair.study.cli import main
+from gearpair.study.estimate import work_ratio
 from tests.conftest import MEAN, write_notebook
 
 
@@ -84,6 +88,7 @@ def test_parameters_from_a_file_go_behind_those_of_the_command_line(small_book, 
 CHECKED = """from gearpair.parameters import check_parameters
 check_parameters(globals(), fastest="mesh_frequency")
 raise RuntimeError("a kernel was started")"""
+STARTED = "chapter small failed in code cell 2 (cell 3 of the notebook): RuntimeError: a kernel was started"
 
 
 @pytest.mark.parametrize(
@@ -93,22 +98,37 @@ raise RuntimeError("a kernel was started")"""
         (["-p", "fastest", "0"], "fastest: mesh_frequency must be a finite number above 0, got 0.0"),
         (["-p", "a", "-1.5"], "a must be a finite number above -1, got -1.5"),
         (["-f", "mine.yml"], "lowest must be below highest, got lowest = 3.0 and highest = 1.7"),
-        (
-            ["-f", "mine.yml", "-p", "lowest", "1"],
-            "code cell 2 (cell 3 of the notebook): RuntimeError: a kernel was started",
-        ),
+        (["-f", "mine.yml", "-p", "lowest", "1"], STARTED),
     ],
 )
 def test_ranges_and_relations_are_checked_before_a_kernel_starts(
     small_book, tmp_path, monkeypatch, capsys, words, sentence
 ):
+    """The whole line is compared: the same sentence out of a kernel comes with the cell that it failed in."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.yml").write_text("lowest: 3")
     names = {"a": 0.116, "lowest": 0.7, "highest": 1.7, "fastest": 2.0}
     parameters = "\n".join(f"{name}: float = {value}  # a number" for name, value in names.items())
     write_notebook(small_book / "notebooks" / "small.ipynb", CHECKED, parameters=parameters)
     assert run(small_book, "run", "small", "--quiet", *words) == 1
-    assert capsys.readouterr().err.endswith(f"{sentence}\n")
+    assert capsys.readouterr().err == f"gearpair: {sentence}\n"
+
+
+@pytest.mark.parametrize(
+    ("changed", "ratio"),
+    [
+        ({}, 1.0),
+        ({"mesh_frequency": 0.07}, 10.0),  # as many mesh periods, each ten times as long
+        ({"n_transient": 200}, 2.0),
+        ({"n_x": 20}, 2.0),
+        ({"n_x": 20, "n_v": 30}, 6.0),
+        ({"n_values": 300}, 3.0),
+    ],
+)
+def test_work_is_counted_in_motions_mesh_periods_and_their_length(changed, ratio):
+    names = {"n_x": 10, "n_v": 10, "n_values": 100, "n_transient": 100, "mesh_frequency": 0.7}
+    chapter = Chapter(Path("small.ipynb"), "", tuple(Parameter(name, "", value, "") for name, value in names.items()))
+    assert work_ratio(chapter, changed) == pytest.approx(ratio)
 
 
 def test_what_will_take_long_is_told_before_it_starts(small_book, tmp_path, monkeypatch, capsys):

@@ -11,13 +11,10 @@ import contextlib
 import io
 import traceback
 
-import numpy as np
+from nbclient.exceptions import CellTimeoutError, DeadKernelError
 from nbformat.v4 import new_output
 from nbgrader.api import Gradebook
 from nbgrader.preprocessors import Execute
-
-import gearpair as gp
-from gearpair import teaching
 
 MIME = "application/vnd.gearpair.answers+json"
 ASK = """
@@ -27,7 +24,9 @@ def _report(names=%r):
     display({%r: report(names, globals())}, raw=True)
 _report()
 """
-STOPPED = "not run: two cells before this one ran for longer than is allowed"
+GIVEN = ("np", "gp", "teaching", "student_id")  # what a test has beside the answers, see `given`
+STOPPED = "not run: a cell before this one ended the kernel or could not be stopped, or two were stopped"
+GONE = "the kernel died in this cell, or could not be stopped"
 MOST_STOPS = 2
 
 
@@ -44,8 +43,7 @@ class GradeApart(Execute):
             graded = {cell.name for cell in notebook.grade_cells if cell.cell_type == "code"}
             cells = [cell for cell in notebook.source_cells if cell.name in graded and cell.locked]
             self.tests = {cell.name: cell.source for cell in cells}
-        self.given = {"np": np, "gp": gp, "teaching": teaching, "student_id": self.student_id}
-        self.wanted = answers_wanted(self.tests.values(), self.given)
+        self.wanted = answers_wanted(self.tests.values())
         nb, resources = super().preprocess(nb, resources, *args, **kwargs)
         self._mark(nb)
         return nb, resources
@@ -66,25 +64,28 @@ class GradeApart(Execute):
         if self.stops >= MOST_STOPS:
             cell.outputs = [new_output("error", ename="NotRun", evalue=STOPPED, traceback=[STOPPED])]
             return
-        super().preprocess_cell(cell, resources, index)
+        try:
+            super().preprocess_cell(cell, resources, index)
+        except (CellTimeoutError, DeadKernelError):  # it hears no interrupt, or is gone: what it said before counts
+            cell.outputs.append(new_output("error", ename="KernelGone", evalue=GONE, traceback=[GONE]))
+            self.stops = MOST_STOPS
+            return
         self.stops += any(output.get("ename") == "CellTimeoutError" for output in cell.outputs)
 
     def _reported(self, cell):
+        from gearpair.teaching import read_report
+
         texts = [output.data[MIME] for output in cell.outputs if MIME in output.get("data", {})]
-        answers = teaching.read_report(texts[-1]) if texts and isinstance(texts[-1], str) else {}
+        answers = read_report(texts[-1]) if texts and isinstance(texts[-1], str) else {}
         typed = answers.pop("student_id", None)
         if isinstance(typed, str) and typed.strip().lower() != self.student_id.strip().lower():
             self.log.warning("the notebook of %s was worked on with the id %r", self.student_id, typed)
         return {name: answers.get(name) for name in self.wanted}
 
     def _mark(self, nb):
-        """Run the tests in the order of the assignment, wherever the student moved them; they share their variables."""
         cells = {test_name(cell): cell for cell in nb.cells if cell.cell_type == "code"}
-        variables = dict(self.given)
-        for name, test in self.tests.items():
-            if name in cells:
-                variables |= {**self.answers[name], **self.given}
-                cells[name].outputs = run_test(test, variables)
+        for name, outputs in run_tests(self.tests, self.answers, self.student_id):
+            cells[name].outputs = outputs
 
 
 def test_name(cell):
@@ -92,14 +93,36 @@ def test_name(cell):
     return cell.metadata.get("nbgrader", {}).get("grade_id")
 
 
-def answers_wanted(tests, given):
-    """The variables that tests take from the student: those they read and no test defines."""
+def answers_wanted(tests):
+    """The variables that tests take from the student: those they read, are not given and no test defines."""
     nodes = [node for test in tests for node in ast.walk(ast.parse(test))]
     names = [node for node in nodes if isinstance(node, ast.Name)]
     set_here = {node.id for node in names if not isinstance(node.ctx, ast.Load)}
-    set_here |= {node.arg for node in nodes if isinstance(node, ast.arg)} | set(given)
+    set_here |= {node.arg for node in nodes if isinstance(node, ast.arg)} | set(GIVEN)
     read = {node.id for node in names if isinstance(node.ctx, ast.Load)}
     return sorted(name for name in read - set_here if not hasattr(builtins, name))
+
+
+def given(student_id):
+    """What every test has; imported here, since most of nbgrader's commands run no test and need not wait for it."""
+    import numpy as np
+
+    import gearpair as gp
+    from gearpair import teaching
+
+    return dict(zip(GIVEN, (np, gp, teaching, student_id), strict=True))
+
+
+def run_tests(tests, answers, student_id):
+    """Run the tests that have answers, in the order of the assignment, wherever the student moved them.
+
+    Yields the name and the outputs of each; they share their variables.
+    """
+    always, variables = given(student_id), {}
+    for name, test in tests.items():
+        if name in answers:
+            variables |= {**answers[name], **always}
+            yield name, run_test(test, variables)
 
 
 def run_test(test, variables):

@@ -24,3 +24,5 @@ c.Autograde.autograde_preprocessors = [
     GradeApart if each is Execute else each for each in Autograde.autograde_preprocessors.default()
 ]
 c.GradeApart.timeout = 60  # seconds for one cell; after two cells that were stopped, the rest is not run
+c.GradeApart.iopub_timeout = 20  # seconds for what a cell printed to arrive; a machine may be busy
+c.GradeApart.shutdown_kernel = "immediate"  # nothing of a kernel's is wanted after its last cell

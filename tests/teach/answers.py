@@ -42,10 +42,15 @@ WRONG: dict[str, dict[str, tuple[float, list[tuple[str, str, str]]]]] = {
         "the_other_motion": (5.0, [("impacts", 'values == "single_drive"', 'values == "none_drive"')]),
     },
     "speed_chart": {
-        "without_teeth": (6.0, [("resonance", " / drive.pinion_teeth", "")]),
-        "radians_for_hertz": (5.0, [("resonance", " / (2 * np.pi)", "")]),
-        "whole_backlash": (12.0, [("run-up", "drive.backlash_um / 2", "drive.backlash_um")]),
-        "millimetres": (13.5, [("run-up", "drive.backlash_um / 2", "drive.backlash_um / 2000")]),
+        "without_teeth": (5.0, [("resonance", " / drive.pinion_teeth", "")]),
+        "radians_for_hertz": (4.0, [("resonance", " / (2 * np.pi)", "")]),
+        # the largest swing, and both curves
+        "effective_value": (
+            12.0,
+            [("run-up", "dte_peak_to_peak", "dte_rms"), ("chart", "dte_peak_to_peak", "dte_rms")],
+        ),
+        "the_way_down": (13.0, [("run-up", 'peak_to_peak.sel(run="up")', 'peak_to_peak.sel(run="down")')]),
+        "millimetres": (14.5, [("run-up", "### END SOLUTION", "largest_swing_um /= 1000")]),
     },
 }
 NAMES = tuple(WRONG)

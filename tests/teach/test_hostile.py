@@ -8,8 +8,9 @@ from tests.teach.answers import FULL, WRONG
 
 NAME = "stiffness"
 HONEST, MISTAKE = WRONG[NAME]["circular_pitch"]
+# What a grader might lean on, replaced after the student's honest first answers; the other answers stay what they are.
 PATCHES = """
-import builtins, sys, numpy, gearpair, gearpair.teaching
+import builtins, gearpair.teaching
 from gearpair.teaching.marks import Marks
 class Same(float):
     __eq__ = __le__ = __ge__ = __lt__ = lambda *_: True
@@ -17,10 +18,11 @@ class Same(float):
     __sub__ = __rsub__ = lambda *_: 0.0
 Marks.number = Marks.same = Marks.curve = lambda self, *_, marks=1, **__: setattr(self, "total", self.total + 99)
 Marks.__repr__ = lambda self: "99"
-gearpair.mesh_stiffness = gearpair.teaching.personal_pair = lambda *_: Same(1)
-gearpair.SpurPair.contact_ratio = Same(1)
-builtins.abs = numpy.abs = lambda *_: 0.0
+gearpair.teaching.personal_pair = lambda *_: pair
 base_pitch_mm = Same(1)
+marks = 99
+builtins.print = lambda *_, **__: None
+student_id = "ada"
 """
 
 
@@ -44,7 +46,9 @@ def tampered(courses):
         moves_the_tests,
     ):
         submit(change.__name__, change)
-    course.nbgrader("autograde", NAME, fails=True)  # nbgrader refuses a cell that it did not hand out, and says so
+    course.submit(NAME, "copycat", course.solution(NAME, "ada"))
+    # nbgrader refuses a cell that it did not hand out, and says so
+    course.log = course.nbgrader("autograde", NAME, fails=True)
     return course
 
 
@@ -65,7 +69,7 @@ def deletes_a_test(notebook):
 
 
 def patches_the_library(notebook):
-    notebook.cells.insert(3, new_code_cell(PATCHES))
+    notebook.cells.insert(notebook.cells.index(cell_of(notebook, "contact-ratio")) + 1, new_code_cell(PATCHES))
 
 
 def brings_a_test(notebook):
@@ -82,30 +86,43 @@ def moves_the_tests(notebook):
     notebook.cells = tests + [cell for cell in notebook.cells if cell not in tests]
 
 
-@pytest.mark.parametrize("student", ["edits_a_test", "raises_the_points", "deletes_a_test"])
-def test_a_changed_test_is_put_back(tampered, student):
+@pytest.mark.xdist_group("tampered")
+@pytest.mark.parametrize("student", ["edits_a_test", "raises_the_points", "deletes_a_test", "patches_the_library"])
+def test_an_attack_leaves_the_marks_that_the_answers_are_worth(tampered, student):
     assert tampered.marks(NAME)["honest"] == HONEST
     assert tampered.marks(NAME)[student] == HONEST
 
 
-@pytest.mark.parametrize("student", ["patches_the_library", "brings_a_test", "moves_the_tests"])
-def test_nothing_in_the_students_kernel_moves_the_marks(tampered, student):
+@pytest.mark.xdist_group("tampered")
+@pytest.mark.parametrize("student", ["brings_a_test", "moves_the_tests"])
+def test_an_attack_that_spoils_the_submission_is_no_gain(tampered, student):
     assert tampered.marks(NAME).get(student, 0.0) <= HONEST
 
 
-def test_what_does_not_end_is_stopped_and_the_rest_is_graded(courses):
+@pytest.mark.xdist_group("tampered")
+def test_the_id_of_somebody_else_is_told(tampered):
+    assert tampered.marks(NAME)["copycat"] <= FULL / 2
+    for student in ("copycat", "patches_the_library"):
+        assert f"the notebook of {student} was worked on with the id 'ada'" in tampered.log
+
+
+LOOP = "while True:\n    pass"
+DEAF = "while True:\n    try:\n        while True:\n            pass\n    except BaseException:\n        pass"
+# what is written behind an answer, and the marks that are left
+ENDLESS = {
+    "endless": (FULL, ("mesh-stiffness", "### END SOLUTION", LOOP)),  # stopped, and goes on with the next cell
+    "deaf": (
+        0.0,
+        ("contact-ratio", "### END SOLUTION", DEAF),
+    ),  # stopped with its kernel, before any question was asked
+    "dying": (3.0, ("mesh-stiffness", "### END SOLUTION", "import os\nos._exit(0)")),  # after the first question
+}
+
+
+@pytest.mark.xdist_group("endless")
+def test_what_does_not_end_is_stopped_and_graded(courses):
     course = courses("endless", NAME)
-    endless = ("mesh-stiffness", "### END SOLUTION", "while True:\n    pass")
-    stubborn = (
-        "contact-ratio",
-        "### END SOLUTION",
-        "while True:\n    try:\n        while True:\n            pass\n    except BaseException:\n        pass",
-    )
-    course.submit(NAME, "endless", course.solution(NAME, "endless", endless))
-    course.submit(NAME, "stubborn", course.solution(NAME, "stubborn", stubborn))
-    course.submit(NAME, "ada", course.solution(NAME, "ada"))
+    for student, (_, edit) in ENDLESS.items():
+        course.submit(NAME, student, course.solution(NAME, student, edit))
     course.nbgrader("autograde", NAME, "--GradeApart.timeout=20")
-    marks = course.marks(NAME)
-    assert marks["endless"] == FULL  # it was stopped after its answers were there, and went on
-    assert marks["stubborn"] == 0.0  # nothing stops it but the end of its kernel
-    assert marks["ada"] == FULL
+    assert course.marks(NAME) == {student: marks for student, (marks, _) in ENDLESS.items()}
