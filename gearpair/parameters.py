@@ -109,9 +109,11 @@ def _check_alone(name: str, value: Any) -> None:
         _check_as(name, lambda: check_start(*value))
     elif name in ("start_x", "start_v"):
         check_number(name, value)
-    elif name in ("x_reach", "v_reach") or (name in ("lowest_rpm", "highest_rpm") and value is not None):
+    elif name in ("x_reach", "v_reach", "pinion_torque_nm"):
         check_number(name, value, above=0.0)
-    elif name == "narrowest":
+    elif name in ("lowest_rpm", "highest_rpm") and value is not None:
+        check_number(name, value, above=0.0)
+    elif name in ("narrowest", "base_pitch_um", "profile_um"):
         check_number(name, value, at_least=0.0)
     elif name == "tolerances":
         if not value:
