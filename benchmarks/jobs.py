@@ -30,7 +30,7 @@ class Measured:
     job : str
         A name in `JOBS`.
     size : int
-        Values of a diagram, or starts along each side of a grid.
+        Values of a diagram, starts along each side of a grid, or motions of a plane.
     seconds : float
     processor_seconds : float
         Summed over the cores; what the machine does for others does not count.
@@ -62,6 +62,13 @@ def grid(n: int) -> None:
     gp.basins(gp.Oscillator(), np.linspace(-4.0, 4.0, n), np.linspace(-3.0, 3.0, n))
 
 
+def plane(n: int) -> None:
+    """The steady motions over 5 m speeds and 3 m values of damping, n in all."""
+    m = max(1, round((n / 15) ** 0.5))
+    axes = {"mesh_frequency": np.linspace(0.5, 1.8, 5 * m), "damping_ratio": np.linspace(0.01, 0.1, 3 * m)}
+    gp.parameter_map(gp.Oscillator(), axes)
+
+
 def chart(n: int) -> None:
     """The speed chart of a drawn pair: runs up and down, twelve starts a speed, jumps located."""
     pair = gp.SpurPair(pinion_teeth=28, gear_teeth=57, face_width_mm=25.0)
@@ -72,7 +79,7 @@ def chart(n: int) -> None:
     gp.design.speed_chart(drive, np.linspace(1500.0, 13000.0, n), n_starts=12)
 
 
-JOBS = {"diagram": diagram, "restarted": restarted, "grid": grid, "chart": chart}
+JOBS = {"diagram": diagram, "restarted": restarted, "grid": grid, "plane": plane, "chart": chart}
 
 
 def peak_mib() -> float:

@@ -13,12 +13,17 @@ from benchmarks.jobs import JOBS, Measured, python, run_apart
 from gearpair.tables import Table
 
 VALUES = (100, 400, 1000)
-SIDES = (50, 100, 200)
+SIDES = (100, 200, 400)
+MOTIONS = (1500, 6000)
 SPEEDS = (40, 160)
 # Too small to change the motion, so that what they cost is what the harmonics themselves cost.
 FIVE_HARMONICS = tuple((order, 1e-9, 0.3) for order in (2, 3, 4, 5))
 FREQUENCIES = (0.7, 0.95, 1.6, 2.2)
-SPREAD = {"restarted": ("diagram from one start, 200 values", 200), "grid": ("50 x 50 starts", 50)}
+SPREAD = {
+    "restarted": ("diagram from one start, 200 values", 200),
+    "grid": ("200 x 200 starts", 200),
+    "plane": ("speed and damping, 1500 motions", 1500),
+}
 STARTS = {
     "Python alone": "",
     "import gearpair": "import gearpair",
@@ -29,9 +34,11 @@ STARTS = {
 
 def growth() -> Table:
     """Time and memory against size, on all cores."""
-    diagrams, grids, charts = run_apart("diagram", VALUES), run_apart("grid", SIDES), run_apart("chart", SPEEDS)
+    diagrams, grids = run_apart("diagram", VALUES), run_apart("grid", SIDES)
+    planes, charts = run_apart("plane", MOTIONS), run_apart("chart", SPEEDS)
     rows = [_cost(m, f"diagram up and down, {m.size} values", 2 * m.size, diagrams[0]) for m in diagrams[1:]]
     rows += [_cost(m, f"{m.size} x {m.size} starts", m.size**2, grids[0]) for m in grids[1:]]
+    rows += [_cost(m, f"speed and damping, {m.size} motions", m.size, planes[0]) for m in planes[1:]]
     rows += [_cost(m, f"speed chart, {m.size} speeds", (2 + 12) * m.size, charts[0]) for m in charts[1:]]
     return Table(("job", "seconds", "processor s", "us / motion", "peak MiB", "MiB for it"), rows)
 

@@ -1,10 +1,14 @@
 """Building the book: what is shown is what ran, and a failure leaves the last good book in place."""
 
+import importlib.util
+from pathlib import Path
+
 import nbformat
 import papermill
 import pytest
 from bs4 import BeautifulSoup
 
+from gearpair.article import published
 from gearpair.study.book import Book
 from gearpair.study.chapters import Parameter
 from gearpair.study.cli import main
@@ -12,6 +16,7 @@ from gearpair.study.errors import StudyError
 from gearpair.study.variants import variant_page
 from tests.conftest import MEAN, write_notebook
 
+ROOT = Path(__file__).parents[1]
 LAST_GOOD = "the last good book"
 
 
@@ -154,3 +159,16 @@ def test_a_variants_page_tells_what_was_changed_and_keeps_its_labels_apart(small
     assert text.endswith("```{solution} ex-one-more")
     assert page.cells[-1].metadata.mystnb.figure == {"name": "fig-z-more", "caption": "See {eq}`eq-x-more`."}
     assert nbformat.writes(notebook) == before  # another page is made from the same notebook
+
+
+def test_every_item_of_the_article_leads_to_one_section():
+    """The verdicts' links; that their sections are there is a gate of the built site."""
+    path = ROOT / "book" / "_ext" / "executed.py"
+    spec = importlib.util.spec_from_file_location("executed", path)
+    executed = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(executed)
+    linked = [item for items in executed.EVIDENCE.values() for item in items.split()]
+    assert sorted(linked) == sorted(statement.item for statement in published.STATEMENTS)
+    for section in executed.EVIDENCE:
+        page = section.partition("#")[0].replace("chapters/", "../notebooks/")
+        assert any((ROOT / "book" / f"{page}{suffix}").is_file() for suffix in (".md", ".ipynb"))

@@ -1,6 +1,9 @@
 """The explorer's page in a real browser: it opens from a file, answers, remembers, and says what it shows."""
 
+import html
+import json
 import re
+from urllib.parse import parse_qsl
 
 import numpy as np
 import pytest
@@ -9,9 +12,11 @@ import gearpair as gp
 from gearpair.plotting.style import MOTION_COLOURS
 from tests.browser import Browser
 from tests.engines import MODULES
-from tests.explorer_pages import write_page, write_pairs_page
+from tests.explorer_pages import ROOT, write_page, write_pairs_page
 
 EXPLORER = "document.getElementById('explorer').explorer"
+IMPACTS = {"single_drive": "single-sided", "double": "double-sided", "none_drive": "no impact"}
+SEE_IT_MOVE = re.compile(r'<a class="see-it-move" href="([^"#]*)#([^"]*)">([^<]*)</a>')
 SETTLED = f"{EXPLORER}?.shown && !{EXPLORER}.pending && !{EXPLORER}.changed"
 
 
@@ -81,14 +86,55 @@ def test_the_readout_is_what_gearpair_says(page, hash, changes, start):
     truth = gp.steady_state(gp.Oscillator().replace(**changes), *start)
     assert truth.status == "periodic"
     assert shown(browser, "motion") == f"period {truth.period}"
-    names = {"single_drive": "single-sided", "double": "double-sided", "none_drive": "no impact"}
-    assert shown(browser, "impact") == names[truth.impact_state]
+    assert shown(browser, "impact") == IMPACTS[truth.impact_state]
     assert shown(browser, "range") == f"{truth.x_min:.3f} to {truth.x_max:.3f}"
     first = truth.multipliers[0]
     assert shown(browser, "modulus") == f"largest modulus {abs(first):.3f}"
     assert shown(browser, "multipliers").startswith(f"{first.real:.3f}")
     assert shown(browser, "exponent") == f"{truth.lyapunov_exponents[0]:.3f}"
     assert f"period {truth.period}" in browser.run(f"{EXPLORER}.shown.name")
+
+
+def paragraphs_of(path):
+    """The paragraphs of a page or of a chapter's prose."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".ipynb":
+        cells = json.loads(text)["cells"]
+        text = "\n\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown")
+    return text.split("\n\n")
+
+
+def links_to_motions():
+    """Each link from the book into the explorer, with where it stands."""
+    return [
+        pytest.param(path, paragraph, *found.groups(), id=f"{path.stem}: {found[2]}")
+        for path in sorted([*ROOT.glob("notebooks/*.ipynb"), *ROOT.glob("book/*.md")])
+        for paragraph in paragraphs_of(path)
+        for found in SEE_IT_MOVE.finditer(paragraph)
+    ]
+
+
+@pytest.mark.parametrize(("source", "paragraph", "target", "hash", "text"), links_to_motions())
+def test_a_link_shows_the_motion_that_its_text_names(page, source, paragraph, target, hash, text):
+    chapter = source.suffix == ".ipynb"
+    assert target == ("../explorer.html" if chapter else "explorer.html")
+    assert not chapter or "baseline" in paragraph  # a chapter may be run with other parameters; its links are not
+    changes = {name: float(value) for name, value in parse_qsl(html.unescape(hash))}
+    start = changes.pop("x", 1.0), changes.pop("v", 0.0)
+    truth = gp.steady_state(gp.Oscillator().replace(**changes), *start)
+    motion = f"period {truth.period}" if truth.period else "chaos"
+    assert re.findall(r"period \d+|chaos", text) == [motion]
+    said = {"rattles": "single-sided", "clatters": "double-sided"}.get(text.split()[-1], IMPACTS[truth.impact_state])
+    assert said == IMPACTS[truth.impact_state]
+    browser = page(f"#{html.unescape(hash)}")
+    assert browser.run(f"{part('complaint')}.hidden")
+    assert shown(browser, "motion") == motion
+    assert shown(browser, "impact") == said
+
+
+def test_every_chapter_about_motions_links_to_some():
+    assert {path.stem for path, *_ in (each.values for each in links_to_motions())} >= {
+        "frequency_sweep", "damping_sweep", "impacts"}  # fmt: skip
 
 
 def test_the_swapped_reading(page):

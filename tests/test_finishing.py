@@ -24,14 +24,25 @@ TOGGLE = "<script>var togglebuttonSelector = '.toggle';</script>"
             '<summary aria-label="Toggle hidden content">\n<p class="collapsed admonition-title">Show</p></summary>',
             '<summary>\n<span class="collapsed admonition-title">Show</span></summary>',
         ),
+        ('<link rel="preload" as="font" href="a.woff2" />\n<link rel="icon">', '<link rel="icon">'),
         ('<th style="x"></th><th>m</th>', '<td style="x"></td><th>m</th>'),
         ('<i id="search-input"><b id="search-input">', '<i id="search-input"><b id="search-field">'),
+        ("<i>Show code cell source</i><b>Hide code cell outputs</b>", "<i>Show the code</i><b>Hide the result</b>"),
+        ('<section id="solution-content">a</section>', "<section>a</section>"),
         ("<p>nothing to mend</p>", "<p>nothing to mend</p>"),
     ],
 )
 def test_what_is_mended(page, mended):
     assert mend(page) == mended
     assert mend(mended) == mended
+
+
+@pytest.mark.parametrize(("rows", "scrolls"), [(10, False), (60, True)])
+def test_a_table_longer_than_a_screen_scrolls_by_itself_and_by_keyboard(rows, scrolls):
+    table = f'<div class="output text_html"><table class="table">{rows * "<tr><td>1</td></tr>"}</table></div>'
+    page = mend(f"{table}<p>between</p>{table}")
+    assert page.count("long-table") == page.count('tabindex="0"') == (2 if scrolls else 0)
+    assert mend(page) == page
 
 
 def test_pictures_take_less_room_and_lose_nothing(tmp_path):
@@ -51,24 +62,28 @@ def test_the_pages_become_one_document_whose_links_stay_inside(small_book):
     html = small_book / "_build" / "html" / "book"
     (html / "chapters").mkdir(parents=True)
     first = '<a href="chapters/small.html#there">x</a><a href="https://example.org/">y</a><a href="#here">z</a>'
-    folded = "<details><summary>Show code cell source</summary>hidden</details>"
-    folded += "<details><summary>Show code cell output</summary>kept</details>"
+    first += '<section class="gp-explorer"><canvas></canvas></section>'
+    first += '<a href="chapters/small.html#x=1&amp;v=2">w</a>'
+    folded = "<details><summary>Show the code</summary>hidden</details>"
+    folded += "<details><summary>Show the result</summary>kept</details>"
     page = "<html><head></head><body><nav>menu</nav><article><h1>{}</h1>{}</article></body></html>"
     (html / "introduction.html").write_text(page.format("First", first))
     second = f'<p id="there"><img src="../../_images/a.png"></p>{folded}'
     (html / "chapters" / "small.html").write_text(page.format("Second", second))
-    text = one_document(Book(small_book), {"First": 2, "Second": 7})
+    text = one_document(Book(small_book), {"First": 2, "Second": 7}, '<img src="data:,still">')
     for piece in (
         '<a href="#book-chapters-small--there">x</a>',
         '<a href="https://example.org/">y</a>',
         '<a href="#book-introduction--here">z</a>',
+        '<a href="#book-chapters-small">w</a>',
         'id="book-chapters-small--there"',
         'src="_images/a.png"',
         '<a href="#book-chapters-small">Second</a><span>7</span>',
+        '<img src="data:,still"/>',
         "kept",
     ):
         assert piece in text
-    assert "hidden" not in text and "menu" not in text
+    assert "hidden" not in text and "menu" not in text and "canvas" not in text
 
 
 def test_a_missing_browser_is_told_in_a_sentence(monkeypatch, tmp_path):

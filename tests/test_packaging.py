@@ -10,7 +10,17 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-TAKEN = ("gearpair", "notebooks", "book", "_toc.yml", "_config.yml", "pyproject.toml", "README.md", "LICENSE")
+TAKEN = (
+    "gearpair",
+    "notebooks",
+    "book",
+    "_toc.yml",
+    "_config.yml",
+    "pyproject.toml",
+    "README.md",
+    "LICENSE",
+    "CITATION.cff",
+)
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +49,10 @@ def test_the_wheel_holds_the_library_its_data_and_the_chapters(installed):
     inside = {name.partition("/data/share/gearpair/")[2] for name in names if "/data/share/gearpair/" in name}
     assert "gearpair/teeth/data/finite_elements.json" in names
     assert {f"notebooks/{path.name}" for path in (ROOT / "notebooks").glob("*.ipynb")} <= inside
-    assert {"_toc.yml", "_config.yml", "book/variants.yml", "book/references.bib", "book/model.md"} <= inside
+    generated = {"__pycache__", "chapters"}
+    book = {path.relative_to(ROOT) for path in (ROOT / "book").rglob("*.*") if path.is_file()}
+    assert {path.as_posix() for path in book if not generated & {*path.parts}} <= inside
+    assert {"_toc.yml", "_config.yml", "CITATION.cff", "LICENSE"} <= inside
     assert not [name for name in names if name.startswith("tests")]
 
 

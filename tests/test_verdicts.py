@@ -7,6 +7,7 @@ import pytest
 
 import gearpair as gp
 from gearpair import article as hy
+from gearpair.article import items as article_items
 from gearpair.article import published, verdicts
 
 FAILS, NEARLY, HOLDS = verdicts.FAILS, verdicts.NEARLY, verdicts.HOLDS
@@ -166,7 +167,30 @@ def test_one_period_two_impact_states():
     items = {v.item: v for v in hy.start_items(hy.PRINTED, hy.SWAPPED)}
     assert items["I4"].verdict == "corrected"
     assert items["I4"].best == "2 attractors, period 1: double and single_drive"
+    assert "unique meaning of one period" in items["I4"].decided_by
     assert items["C3"].verdict == "confirmed"
+    assert {items[item].verdict for item in ("I1", "I2", "I3")} == {"definition"}  # C3 and I5 count what is met
+    assert [items[item].best for item in ("I1", "I2", "I3")] == ["not met here", "met here", "met here"]
+
+
+def test_the_frequency_is_the_main_parameter_of_the_two():
+    """C1: along the damping a carried sweep stays on period 1 in both readings, along the frequency it does not."""
+    items = {v.item: v for v in hy.chaos_items(hy.PRINTED, hy.SWAPPED)}
+    assert items["C1"].verdict == "confirmed"
+    assert items["C1"].best == "4 kinds of motion along the frequency, 1 along the damping at Omega_h 0.7"
+    assert items["C1"].printed.endswith("1 along the damping at Omega_h 0.7")
+    assert [items[item].verdict for item in ("F9", "F13", "D6", "C2")] == [
+        "contrary",
+        "refuted",
+        "refuted",
+        "corrected",
+    ]
+
+
+def test_a_share_is_told_in_words():
+    assert [article_items.extent(share) for share in (1.0, 0.96, 0.5, 0.0)] == [
+        "on all of it", "on nearly all of it", "on part of it", "nowhere in it",
+    ]  # fmt: skip
 
 
 def test_statements_about_the_model():

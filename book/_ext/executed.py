@@ -1,7 +1,7 @@
 """What pages take from the executed chapters, so that it stays true when a chapter is run again.
 
 ``{thumbnail} impacts fig-basins`` shows a figure of a chapter in small; ``{claims} F D`` gives the article's items with
-their verdicts, as the chapter `reproduction` found them, for the letters named.
+their verdicts, as the chapter `reproduction` found them, for the letters named, each with a link to its evidence.
 """
 
 from __future__ import annotations
@@ -20,7 +20,31 @@ from sphinx.util.docutils import SphinxDirective
 CHAPTERS = "book/chapters"
 THUMBNAILS = f"{CHAPTERS}/thumbnails"  # beside the executed chapters: generated, and not kept
 WIDTH = 720  # pixels: sharp on a screen of twice the density
-VERDICTS = ("reproduction", "verdict")  # the chapter, and the column of its table
+VERDICTS = ("reproduction", "verdict", "decided by")  # the chapter, and two columns of its table
+EVIDENCE = {  # the section, below book/, where the items are tested or used
+    "model#two-rotors": "M1 M2 M3",
+    "model#one-relative-coordinate": "M4",
+    "model#the-dimensionless-oscillator": "M6 N3",
+    "method#the-flows-derivative": "N2",
+    "chapters/stiffness#its-mean-is-not-1": "M5",
+    "chapters/stiffness#a-tooth-as-a-beam": "K1",
+    "chapters/stiffness#the-path-of-contact": "K4",
+    "chapters/stiffness#the-articles-table": "K3",
+    "chapters/stiffness#does-the-choice-matter": "K5 C4",
+    "chapters/method#chaos-that-is-not-there": "N1",
+    "chapters/reproduction#which-motions-exist-at-all": "K2 F1 F3 F5 F7 F8 F10 F11 D3 D5",
+    "chapters/reproduction#boundary-by-boundary": "F2 F4 F6 D4",
+    "chapters/reproduction#the-damping-table-and-the-length-of-a-transient": "D1 D2",
+    "chapters/frequency_sweep#what-each-motion-looks-like": "F9",
+    "chapters/frequency_sweep#the-claims": "F12 F13 F14",
+    "chapters/frequency_sweep#rising-and-falling": "C1",
+    "chapters/damping_sweep#speed-and-damping-together": "D6",
+    "chapters/damping_sweep#the-claims-one-by-one": "C2",
+    "chapters/impacts#the-criteria": "I1 I2 I3",
+    "chapters/impacts#the-plane-of-starts": "I4 C3",
+    "chapters/impacts#start-up-history": "I5",
+    "conclusions#what-follows-for-an-engineer": "C5",
+}
 
 
 class Executed(SphinxDirective):
@@ -100,23 +124,34 @@ class Claims(Executed):
     optional_arguments = 20
 
     def run(self) -> list[nodes.Node]:
-        chapter, word = VERDICTS
+        chapter, word, by = VERDICTS
         for cell in self.cells(chapter):
             for output in cell.outputs:
                 rows = Rows(output.get("data", {}).get("text/html", "")).rows
                 if rows and word in rows[0]:
-                    column = rows[0].index(word)
-                    return [self._table([row for row in rows[1:] if row[0][0] in self.arguments], column)]
+                    columns = rows[0].index(word), rows[0].index(by)
+                    return [self._table([row for row in rows[1:] if row[0][0] in self.arguments], *columns)]
         raise self.error(f"chapter {chapter!r} has no table of verdicts")
 
-    def _table(self, rows: list[list[str]], column: int) -> nodes.Node:
+    def _table(self, rows: list[list[str]], word: int, by: int) -> nodes.Node:
         marks = "".join(
-            f'<tr><td>{row[0]}</td><td>{row[1]}</td><td class="verdict {row[column]}">{row[column]}</td></tr>\n'
+            f'<tr><td>{row[0]}</td><td>{row[1]}</td><td class="verdict {row[word]}">{row[word]}</td>'
+            f"<td>{self._evidence(row[0], row[by])}</td></tr>\n"
             for row in rows
         )
-        head = "<tr><th>item</th><th>the article</th><th>verdict</th></tr>"
+        head = "<tr><th>item</th><th>the article</th><th>verdict</th><th>decided by</th></tr>"
         table = f'<table class="table claims"><thead>{head}</thead>\n<tbody>\n{marks}</tbody></table>'
         return nodes.raw("", table, format="html")
+
+    def _evidence(self, item: str, by: str) -> str:
+        """A link to where the item is tested, or used where nothing decides it."""
+        for section, items in EVIDENCE.items():
+            if item in items.split():
+                page, _, anchor = section.partition("#")
+                address = self.env.app.builder.get_relative_uri(self.env.docname, f"book/{page}")
+                text = "nothing; where it is used" if by == "–" else by
+                return f'<a class="reference internal" href="{address}#{anchor}">{text}</a>'
+        raise self.error(f"item {item} has no section in EVIDENCE")
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import enum
 import inspect
 import re
 from importlib import import_module
@@ -88,8 +89,19 @@ class Face(Generated):
 def for_readers(app: Sphinx, what: str, name: str, obj: object, options: object, lines: list[str]) -> None:
     """A docstring as reStructuredText: a modulus such as |X| is no substitution; doctest flags are not for readers."""
     for number, line in enumerate(lines):
-        line = re.sub(r"\s*# doctest:.*$", "", line)
-        lines[number] = re.sub(r"(?<![`|])\|([^|`\s]+)\|", r"\\|\1\\|", line)
+        pieces = re.split("(``.*?``)", re.sub(r"\s*# doctest:.*$", "", line))
+        pieces[::2] = [re.sub(r"(?<![`|])\|([^|`\s]+)\|", r"\\|\1\\|", text) for text in pieces[::2]]
+        lines[number] = "".join(pieces)
+
+
+def without_machinery(app: Sphinx, what: str, name: str, obj: object, skip: bool, options: object) -> bool | None:
+    """The fields of a named tuple stand among its attributes already; what Python says of them says nothing."""
+    return True if str(getattr(obj, "__doc__", "")).startswith("Alias for field number") else None
+
+
+def signature(app: Sphinx, what: str, name: str, obj: object, *_: object) -> tuple[str, str] | None:
+    """An enumeration is not made by calling it, so it is shown without the call."""
+    return ("", "") if isinstance(obj, enum.EnumMeta) else None
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
@@ -98,4 +110,6 @@ def setup(app: Sphinx) -> dict[str, bool]:
     app.add_directive("face", Face)
     app.connect("config-inited", lambda _, config: config.codeautolink_inventory_map.update(homes()), priority=1)
     app.connect("autodoc-process-docstring", for_readers)
+    app.connect("autodoc-skip-member", without_machinery)
+    app.connect("autodoc-process-signature", signature)
     return {"parallel_read_safe": True}

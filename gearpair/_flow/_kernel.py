@@ -7,11 +7,16 @@ from hashlib import sha256
 from pathlib import Path
 
 from numba import njit
+from numba.core.options import DefaultOptions
 
 # Multiply-adds may be fused, unless GEARPAIR_FMA=0 asks for the rounding of a processor that has none; nothing is
 # reordered, and a division by zero gives inf instead of raising.
 FUSED = os.environ.get("GEARPAIR_FMA", "1") != "0"
 OPTIONS = {"error_model": "numpy", "fastmath": {"contract"} if FUSED else set(), "nogil": True}
+
+# What a kernel is handed stays alive as long as its caller, so it need not count the references to it: handing over
+# an oscillator, two dozen arrays, would take longer than a segment of its motion.
+COUNTED, UNCOUNTED = ({"_nrt": True}, {"_nrt": False}) if hasattr(DefaultOptions, "_nrt") else ({}, {})
 
 # numba's disk cache looks only at the file a kernel stands in, but a kernel contains those that it calls. So the
 # names of the cached files carry a digest of all sources: after an edit nothing compiled before is found again.
@@ -19,7 +24,22 @@ SOURCES = sha256(b"".join(path.read_bytes() for path in sorted(Path(__file__).pa
 SOURCES += "" if FUSED else "-unfused"
 
 
-def kernel(function, **options):
+def kernel(function):
+    """Compile a function of numbers and arrays that returns numbers alone."""
+    return compiled_once(function, UNCOUNTED)
+
+
+def allocating_kernel(function):
+    """`kernel` for a function that makes arrays, returns some, or calls one that returns some."""
+    return compiled_once(function, COUNTED)
+
+
+def inlined_kernel(function):
+    """`kernel`, always inlined, for what runs once an event."""
+    return compiled_once(function, UNCOUNTED | {"forceinline": True})
+
+
+def compiled_once(function, options):
     """Compile `function` at its first call, or load what an earlier process compiled from the same sources."""
     options = OPTIONS | options
     try:
@@ -56,8 +76,3 @@ def _say_uncached():
         RuntimeWarning,
         stacklevel=2,
     )
-
-
-def inlined_kernel(function):
-    """`kernel`, always inlined: handing over the tables of an oscillator would take longer than the work."""
-    return kernel(function, forceinline=True)

@@ -17,7 +17,7 @@ the right side grows faster than W: all that starts within r converges to the cy
 
 import numpy as np
 
-from ._kernel import kernel
+from ._kernel import allocating_kernel, kernel
 from .cells import WIDTH
 from .closed_form import TERMS, evaluate
 from .event_search import INSIDE
@@ -47,7 +47,7 @@ def inside(neighbourhoods, n, x, v):
     return -1
 
 
-@kernel
+@allocating_kernel
 def surround(cells, x, v, period, owner, rows, series):
     """Certify a neighbourhood of each section point of the stable cycle through (x, v): whether there are any."""
     steps = np.empty((period, 2, 2))
@@ -96,7 +96,7 @@ def transform(form, m):
     return xx, xv, vv
 
 
-@kernel
+@allocating_kernel
 def contracting_norms(steps, forms, factors):
     """Forms Q_i with ``S_i' Q_(i+1) S_i <= factors_i^2 Q_i``, all factors below 1: whether there are any.
 
@@ -135,7 +135,7 @@ def contracting_norms(steps, forms, factors):
     return form[0] < 1e12 and form[2] < 1e12
 
 
-@kernel
+@allocating_kernel
 def grow(cells, x, v, form, parts, bounds, series):
     """Let the bounds W of several radii grow over the mesh period that starts at (x, v) of the cycle."""
     s = np.eye(2)
@@ -151,7 +151,7 @@ def grow(cells, x, v, form, parts, bounds, series):
             region = region_after(region, x)
 
 
-@kernel
+@allocating_kernel
 def grow_segment(cells, j, region, duration, series, s, form, parts, bounds):
     """`grow` over one segment of cell `j`; `s` becomes the variational flow at its end."""
     width, level = cells.clock[j, WIDTH], cells.level[j]

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._kernel import kernel
+from ._kernel import allocating_kernel, kernel
 from .closed_form import (
     AMPLITUDE,
     DEGREE,
@@ -97,7 +97,7 @@ def count_cells(p, level):
     return n_blocks * max(1, int(np.ceil(turn / REACH)))
 
 
-@kernel
+@allocating_kernel
 def build_cells(p):
     """Cut the mesh period of oscillator `p` into cells."""
     n_levels = p.levels.size
@@ -191,7 +191,7 @@ def contact_growth(p):
     return (half + np.sqrt(max(half * half - 1.0, 0.0))) * np.exp(-zeta * period)
 
 
-@kernel
+@allocating_kernel
 def fill_map(cells, j, region):
     """The affine map of cell `j` in one region, and its spread."""
     basis = cells.bases[cells.level[j], abs(region - 1)]
@@ -218,7 +218,7 @@ def fill_map(cells, j, region):
         row[S0] += cells.forced_fourths[j, abs(region - 1)] / 384.0
 
 
-@kernel
+@allocating_kernel
 def fill_block(cells, b, first, last):
     """Join cells `first` to `last` (of equal width and one stiffness level) to block `b`.
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._kernel import kernel
+from ._kernel import allocating_kernel, kernel
 from .cells import START, WIDTH, build_cells
 from .closed_form import TERMS, evaluate
 from .event_search import INSIDE, UNDECIDED, least_step, next_turn
@@ -10,26 +10,26 @@ from .march import EVENT_UNDECIDED, OK, first_region, march, next_segment, regio
 from .tangent import march_tangent, newton
 
 
-@kernel
+@allocating_kernel
 def map_at(p, x, v, period, m):
     """The `period`-fold map of oscillator `p` and its monodromy `m`: (status, x, v)."""
     return map_of(build_cells(p), x, v, period, m)
 
 
-@kernel
+@allocating_kernel
 def map_of(cells, x, v, period, m):
     """`map_at` of the cells of an oscillator."""
     m[0, 0], m[0, 1], m[1, 0], m[1, 1] = 1.0, 0.0, 0.0, 1.0
     return march_tangent(cells, x, v, period, m, np.empty(TERMS))
 
 
-@kernel
+@allocating_kernel
 def plain_map_at(p, x, v, period):
     """`map_at` without the monodromy."""
     return march(build_cells(p), x, v, period, np.empty(TERMS))
 
 
-@kernel
+@allocating_kernel
 def cycle_at(p, x, v, points, m, extrema):
     """The cycle of oscillator `p` through (x, v): (status, residual, n_extrema, drive contacts, coast contacts).
 
@@ -45,7 +45,7 @@ def cycle_at(p, x, v, points, m, extrema):
     return max(status, searched), max(abs(x1 - x), abs(v1 - v)), n, drive, coast
 
 
-@kernel
+@allocating_kernel
 def extrema_of(cells, x, v, period, extrema):
     """The extrema of X and the contacts begun over `period` mesh periods: (status, n_extrema, drive, coast)."""
     series = np.empty(TERMS)
@@ -81,7 +81,7 @@ def segment_extrema(cells, j, cycle, start, series, end, extrema, n):
     return n
 
 
-@kernel
+@allocating_kernel
 def newton_starts(first, last, cells, starts, period, ends, found):
     """Newton's method from rows `first` to `last` of `starts` (n, 2), filling the same of `ends` and `found`."""
     m, series = np.empty((2, 2)), np.empty(TERMS)

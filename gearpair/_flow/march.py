@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._kernel import inlined_kernel, kernel
+from ._kernel import allocating_kernel, inlined_kernel, kernel
 from .cells import COSINE, S0, SINE, SV, SX, V0, VV, VX, WIDTH, X0, XV, XX
 from .closed_form import TERMS, add_shifted, evaluate, expand
 from .event_search import INSIDE, UNDECIDED, first_exit, region_at
@@ -175,7 +175,7 @@ def march(cells, x, v, n_periods, series):
     return OK, x, v
 
 
-@kernel
+@allocating_kernel
 def march_starts(first, last, cells, starts, n_periods, ends, status):
     """`march` from rows `first` to `last` of `starts` (n, 2), filling the same of `ends` (n, 2) and `status` (n,)."""
     series = np.empty(TERMS)

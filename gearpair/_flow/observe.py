@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._kernel import kernel
+from ._kernel import allocating_kernel, kernel
 from .cells import START, WIDTH
 from .closed_form import DEGREE, TERMS, evaluate, fourth_derivative_bound
 from .event_search import INSIDE, UNDECIDED, least_step, next_turn
@@ -90,7 +90,7 @@ def widen(cells, x, v, n_periods, low, high, series):
     return OK, x, v, low, high, drive, coast
 
 
-@kernel
+@allocating_kernel
 def record(cells, x, v, n_periods, samples_per_period, samples, impacts):
     """Sample the motion and list its crossings: (status, periods done, crossings).
 

@@ -10,7 +10,7 @@ Math. Comp. 46 (1986) 135.
 
 import numpy as np
 
-from ._kernel import kernel
+from ._kernel import allocating_kernel, kernel
 from .closed_form import AMPLITUDE, ORDER, PHASE
 from .settle import parameters_of
 
@@ -129,7 +129,7 @@ def interpolate(slopes, component, start, h, s):
     return start + h * change
 
 
-@kernel
+@allocating_kernel
 def integrate(p, x, v, n_periods, rtol, atol, max_step, max_steps, points):
     """RK45 from (x, v) over `n_periods` in steps of `max_step` at most: (status, steps taken, calls of the right side).
 
@@ -179,7 +179,7 @@ def integrate(p, x, v, n_periods, rtol, atol, max_step, max_steps, points):
     return TOO_MANY_STEPS, max_steps, calls
 
 
-@kernel
+@allocating_kernel
 def integrate_rows(first, last, lanes, chain, n_periods, rtol, atol, least_steps, max_steps, points, status, calls):
     """`integrate` for lanes `first` to `last`, filling the same rows of `points` (n, m, 2), `status` and `calls` (n,).
 
@@ -206,7 +206,7 @@ def tabulate(p, n_steps, forces, levels):
         forces[j], levels[j] = acceleration(p, j * half, 0.0, 0.0), p.levels[level]
 
 
-@kernel
+@allocating_kernel
 def integrate_fixed(p, x, v, n_periods, n_steps, points):
     """The classical Runge-Kutta method with `n_steps` equal steps a mesh period; `points` as in `integrate`: a status.
 
@@ -237,7 +237,7 @@ def integrate_fixed(p, x, v, n_periods, n_steps, points):
     return COMPLETE
 
 
-@kernel
+@allocating_kernel
 def integrate_fixed_rows(first, last, lanes, chain, n_periods, n_steps, points, status):
     """`integrate_fixed` for lanes `first` to `last`, filling the same rows of `points` (n, m, 2) and `status` (n,).
 

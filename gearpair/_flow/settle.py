@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._kernel import kernel
+from ._kernel import allocating_kernel, kernel
 from .capture import COLUMNS, OWNER, V, X, inside, surround
 from .cells import Parameters, build_cells
 from .closed_form import TERMS
@@ -69,7 +69,7 @@ class Known(NamedTuple):
     neighbourhoods: np.ndarray  # (m, COLUMNS), OWNER the attractor's row
 
 
-@kernel
+@allocating_kernel
 def parameters_of(lanes, i):
     """The oscillator of lane `i`."""
     s = lanes.scalars[i]
@@ -194,7 +194,7 @@ def approached(cells, x, v, max_period, m, series):
     return status, period, x, v, xs, vs
 
 
-@kernel
+@allocating_kernel
 def settle(cells, x, v, n_transient, max_period, n_exponent, most, known, neighbourhoods, out, i, series):
     """Follow one motion until it is settled and fill row `i` of `out`.
 
@@ -261,7 +261,7 @@ def judge(cells, x, v, max_period, n_exponent, out, i, m, series):
     return status, period, x, v, xs, vs
 
 
-@kernel
+@allocating_kernel
 def copy_row(known, k, out, i):
     """What is known of attractor `k`, into row `i` of `out`."""
     out.status[i], out.period[i] = known.status[k], known.period[k]
@@ -282,7 +282,7 @@ def smallest_point(cells, x, v, period, series):
     return xs, vs
 
 
-@kernel
+@allocating_kernel
 def scratch(known, max_period):
     """The known neighbourhoods, with room for those of one more cycle."""
     n = len(known.neighbourhoods)
@@ -291,7 +291,7 @@ def scratch(known, max_period):
     return neighbourhoods
 
 
-@kernel
+@allocating_kernel
 def settle_rows(first, last, lanes, chain, max_period, n_exponent, most, known, out):
     """`settle` for lanes `first` to `last`, which form chains of `chain` lanes each (1: every lane for itself).
 
@@ -307,7 +307,7 @@ def settle_rows(first, last, lanes, chain, max_period, n_exponent, most, known, 
         settle(cells, x, v, lanes.n_transient[i], max_period, n_exponent, most, known, neighbourhoods, out, i, series)
 
 
-@kernel
+@allocating_kernel
 def settle_starts(first, last, cells, starts, n_transient, max_period, n_exponent, most, known, out):
     """`settle` from rows `first` to `last` of `starts` (n, 2), all of one oscillator."""
     series = np.empty(TERMS)
@@ -317,7 +317,7 @@ def settle_starts(first, last, cells, starts, n_transient, max_period, n_exponen
         settle(cells, x, v, n_transient, max_period, n_exponent, most, known, neighbourhoods, out, i, series)
 
 
-@kernel
+@allocating_kernel
 def surround_rows(cells, points, periods, rows):
     """Neighbourhoods of the cycles through `points` (n, 2), filled into `rows`: how many there are."""
     series = np.empty(TERMS)

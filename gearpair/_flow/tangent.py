@@ -6,7 +6,7 @@ has no jump: its matrix is the product of the linear pieces' own, and its determ
 
 import numpy as np
 
-from ._kernel import inlined_kernel, kernel
+from ._kernel import allocating_kernel, inlined_kernel, kernel
 from .cells import VV, VX, WIDTH, XV, XX
 from .closed_form import evaluate
 from .event_search import INSIDE, UNDECIDED
@@ -145,7 +145,7 @@ def stretch(cells, x, v, n_periods, q, series):
     return status, x, v, total
 
 
-@kernel
+@allocating_kernel
 def exponents(cells, x, v, n_periods, blocks, series):
     """Lyapunov exponents by the tangent map: (status, x, v, largest, smallest, standard error).
 

@@ -20,6 +20,7 @@ MENDS: tuple[tuple[str, str, str], ...] = (
     (r'<script type="text/x-thebe-config">.*?</script>\s*', "", "the same"),
     (r"<script>kernelName = [^<]*</script>\s*", "", "the same"),
     (r"(<script>var togglebuttonSelector[^<]*</script>)(?=.*?\1)", "", "written twice"),
+    (r'<link rel="preload" as="font"[^>]*>\s*', "", "a page opened from a file may not, and says so in the console"),
     (r'<meta name="viewport"[^>]*>\s*(?=.*?<meta name="viewport")', "", "written three times"),
     (
         r'<div class="bd-sidebar-primary bd-sidebar',
@@ -35,10 +36,17 @@ MENDS: tuple[tuple[str, str, str], ...] = (
     ),
     (r"<th([^>]*)></th>", r"<td\1></td>", "a head without words is none"),
     (r' role="doc-biblioentry"', ' role="listitem"', "deprecated, and no child of a list"),
+    (r'<section id="(exercise|solution)-content">', "<section>", "one name for every exercise of a page"),
     (r'(id="search-input".*)id="search-input"', r'\1id="search-field"', "the page of the search has the field twice"),
+    (r"(Show|Hide) code cell source", r"\1 the code", "said some thirty times a chapter, it is said in plain words"),
+    (r"(Show|Hide) code cell outputs?", r"\1 the result", "the same"),
     (r'\s+autocorrect="off"', "", "not yet known to HTML checkers, and nothing is corrected in a search"),
 )
 _COMPILED = tuple((re.compile(pattern, re.DOTALL), new) for pattern, new, _ in MENDS)
+
+LONGEST_TABLE = 24  # rows of a table that still fits on a screen
+TABLE = re.compile(r'<div class="output text_html">(?=(\s*<table.*?</table>))', re.DOTALL)
+LONG_TABLE = '<div class="output text_html long-table" tabindex="0" role="group" aria-label="A long table; it scrolls">'
 
 FRONT_DOOR = """<!DOCTYPE html>
 <html lang="en">
@@ -67,7 +75,7 @@ def finish_site(site: Path, first_page: str, title: str) -> None:
 
 
 def mend(html: str) -> str:
-    """A page with `MENDS` applied.
+    """A page with `MENDS` applied, in which a table longer than a screen scrolls by itself, by keyboard too.
 
     Examples
     --------
@@ -76,7 +84,7 @@ def mend(html: str) -> str:
     """
     for pattern, new in _COMPILED:
         html = pattern.sub(new, html)
-    return html
+    return TABLE.sub(lambda found: LONG_TABLE if found[1].count("<tr") > LONGEST_TABLE else found[0], html)
 
 
 def _shrink_pictures(folder: Path) -> dict[str, str]:

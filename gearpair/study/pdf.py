@@ -6,6 +6,7 @@ tells on which page each chapter begins, for the contents.
 
 from __future__ import annotations
 
+import base64
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -17,7 +18,15 @@ from gearpair.study.book import Book
 from gearpair.study.browser import chromium, serve
 from gearpair.study.errors import StudyError
 
-LEFT_OUT = "a.headerlink, script, style, button, .gp-explorer, .gp-pairs, .toggle-hidden, nav"
+LEFT_OUT = "a.headerlink, script, style, button, .gp-pairs, .toggle-hidden, nav"
+EXPLORER = ".gp-explorer"  # moves, so paper gets a picture of it
+SHOWN = (
+    "document.getElementById('explorer').explorer?.shown && !document.getElementById('explorer').explorer.diagram.busy"
+)
+STILL = (
+    '<figure><img src="{src}" alt="The explorer at the baseline, with the motion and its bifurcation diagram">'
+    "<figcaption>The explorer at the baseline. On the screen it answers to sliders and clicks.</figcaption></figure>"
+)
 MARGIN = {"top": "18mm", "bottom": "18mm", "left": "18mm", "right": "18mm"}
 FOOTER = '<div style="font-size: 8px; width: 100%; text-align: center"><span class="pageNumber"></span></div>'
 STYLE = """
@@ -27,9 +36,9 @@ article { break-before: page; }
 h1, h2, h3, h4, figcaption, summary { break-after: avoid; }
 figure, tr, .sd-card, .cell_output img, mjx-container { break-inside: avoid; }
 pre { white-space: pre-wrap; overflow-wrap: anywhere; }
-img { max-height: 21cm; }
+img { max-height: 17cm; }
 table { font-size: 0.85em; width: 100%; }
-td, th { overflow-wrap: anywhere; }
+td, th { overflow-wrap: break-word; padding: 0.3em 0.4em; }
 .cover { padding-top: 12vh; }
 .cover .title { font-size: 2.4rem; }
 .contents { list-style: none; padding: 0; }
@@ -53,8 +62,9 @@ def print_book(book: Book, output: Path) -> int:
     together = book.html / "_printed.html"
     try:
         numbers: Mapping[str, int] = {}
+        still = _picture(book.html)
         for _ in range(2):
-            together.write_text(one_document(book, numbers), encoding="utf-8")
+            together.write_text(one_document(book, numbers, still), encoding="utf-8")
             _print(book.html, together.name, output)
             reader = PdfReader(output)
             numbers = {
@@ -79,8 +89,28 @@ def _print(site: Path, name: str, output: Path) -> None:
         )  # fmt: skip
 
 
-def one_document(book: Book, numbers: Mapping[str, int]) -> str:
-    """All pages of the table of contents in one HTML document, after a cover and the contents with page numbers."""
+def _picture(site: Path) -> str:
+    """What stands on paper for the explorer: it as it opens, its diagram complete; nothing where there is none."""
+    found = next(
+        (path for path in site.rglob("explorer.html") if EXPLORER[1:] in path.read_text(encoding="utf-8")), None
+    )
+    if found is None:
+        return ""
+    with serve(site) as origin, chromium() as browser:
+        page = browser.new_page(
+            viewport={"width": 1280, "height": 1600}, device_scale_factor=2, reduced_motion="reduce"
+        )
+        page.goto(f"{origin}/{found.relative_to(site).as_posix()}", wait_until="load")
+        page.wait_for_function(SHOWN)
+        picture = page.locator(EXPLORER).screenshot()
+    return STILL.format(src=f"data:image/png;base64,{base64.b64encode(picture).decode()}")
+
+
+def one_document(book: Book, numbers: Mapping[str, int], still: str = "") -> str:
+    """All pages of the table of contents in one HTML document, after a cover and the contents with page numbers.
+
+    Where the explorer is, `still` stands.
+    """
     root = book.toc["root"]
     first = BeautifulSoup((book.html / f"{root}.html").read_text(encoding="utf-8"), "html.parser")
     head = "".join(
@@ -88,7 +118,7 @@ def one_document(book: Book, numbers: Mapping[str, int]) -> str:
         for tag in first.select("head link, head script")
         if tag.get("rel") == ["stylesheet"] or "MathJax" in tag.text or "mathjax" in str(tag.get("src"))
     )
-    pages = {name: _article(book.html, name) for name in (root, *book.pages())}
+    pages = {name: _article(book.html, name, still) for name in (root, *book.pages())}
     contents = "".join(
         f'<li><a href="#{_slug(name)}">{_title(article)}</a><span>{numbers.get(_title(article), "")}</span></li>'
         for name, article in pages.items()
@@ -101,7 +131,7 @@ def one_document(book: Book, numbers: Mapping[str, int]) -> str:
     )
 
 
-def _article(site: Path, name: str) -> Tag:
+def _article(site: Path, name: str, still: str) -> Tag:
     """One page's article, its ids and links made to fit one document."""
     soup = BeautifulSoup((site / f"{name}.html").read_text(encoding="utf-8"), "html.parser")
     article = soup.find("article")
@@ -109,10 +139,12 @@ def _article(site: Path, name: str) -> Tag:
         raise StudyError(f"the page {name} has no article to print")
     for tag in article.select(LEFT_OUT):
         tag.decompose()
+    for explorer in article.select(EXPLORER):
+        explorer.replace_with(BeautifulSoup(still, "html.parser"))
     for summary in article.select("details > summary"):
         folded = summary.find_parent("details")
         assert folded is not None
-        if "source" in summary.text:  # code that the page hides; folded output is shown
+        if "the code" in summary.text:  # code that the page hides; folded output is shown
             folded.decompose()
         else:
             folded["open"] = ""
@@ -122,7 +154,7 @@ def _article(site: Path, name: str) -> Tag:
             tag["id"] = f"{_slug(name)}--{tag['id']}"
         if tag.get("href"):
             tag["href"] = _link(name, str(tag["href"]))
-        if tag.get("src"):
+        if tag.get("src") and not str(tag["src"]).startswith("data:"):
             tag["src"] = _from_root(name, str(tag["src"]))
     article["id"] = _slug(name)
     return article
@@ -143,7 +175,8 @@ def _link(name: str, href: str) -> str:
     if parts.scheme or not (parts.path or parts.fragment):
         return href
     target = _from_root(name, unquote(parts.path)).removesuffix(".html") if parts.path else name
-    return f"#{_slug(target)}--{parts.fragment}" if parts.fragment else f"#{_slug(target)}"
+    place = "" if "=" in parts.fragment else parts.fragment  # a state of the explorer is no place on paper
+    return f"#{_slug(target)}--{place}" if place else f"#{_slug(target)}"
 
 
 def _from_root(name: str, path: str) -> str:

@@ -88,6 +88,8 @@ class Site:
             return True
         fragment = unquote(parts.fragment)
         other = self.pages.get(target.relative_to(self.root.resolve()).as_posix())
+        if other and "explorer" in other.ids and "=" in fragment:
+            return False  # a motion, not a place; that the explorer takes it is tested with the explorer
         return bool(fragment and other and fragment not in other.ids and fragment != "top")
 
     def external_resources(self, name: str) -> list[str]:

@@ -51,6 +51,11 @@ def test_a_gate_without_a_browser_closes(make_site, gate, body, found):
     assert getattr(make_site(body), gate)("page.html") == [found]
 
 
+def test_a_motion_of_the_explorer_is_no_broken_link(make_site):
+    explorer = '<section id="explorer"><a href="#x=1&amp;v=0.5">this motion</a> <a href="#lost">lost</a></section>'
+    assert make_site(explorer).broken_links("page.html") == ["#lost"]
+
+
 def test_code_may_show_markup(make_site):
     assert make_site("<pre>{numref}`fig-wave`</pre>").unresolved("page.html") == []
 

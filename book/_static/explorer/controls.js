@@ -48,9 +48,8 @@ gearpair.define("controls", ["state"], function ({ NUMBERS, readValue, complaint
     choice.className = "gp-choice";
     choice.setAttribute("role", "radiogroup");
     choice.setAttribute("aria-label", "Reading of the stiffness wave");
-    choice.innerHTML = ["printed", "swapped"]
-      .map((value) => `<label><input type="radio" name="reading" value="${value}"><span>${value}</span></label>`)
-      .join("");
+    const label = (value) => `<label><input type="radio" name="reading" value="${value}"><span>${value}</span></label>`;
+    choice.innerHTML = `<b aria-hidden="true">Reading</b>${["printed", "swapped"].map(label).join("")}`;
     choice.addEventListener("change", ({ target }) => onChange({ reading: target.value }));
     return choice;
   }

@@ -1,0 +1,66 @@
+"""What a release states in several places is the same in all of them, and what its services run exists."""
+
+import json
+import os
+import re
+import tomllib
+from pathlib import Path
+
+import yaml
+
+ROOT = Path(__file__).parents[1]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
+
+
+def read_yaml(name: str):
+    return yaml.safe_load((ROOT / name).read_text(encoding="utf-8"))
+
+
+def make_targets(text: str) -> set[str]:
+    """The targets of every ``make`` in a script."""
+    return {word for line in re.findall(r"\bmake ([\w ./-]+)", text) for word in line.split()}
+
+
+def test_the_version_and_its_date_are_the_same_everywhere():
+    citation = read_yaml("CITATION.cff")
+    first = re.search(r"^## \[(.*)\] - (.*)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
+    assert (citation["version"], str(citation["date-released"])) == first.groups()
+    assert citation["version"] == PROJECT["version"]
+    assert citation["license"] == PROJECT["license"]
+
+
+def test_the_services_call_what_exists():
+    workflow = read_yaml(".github/workflows/ci.yml")
+    steps = [step["run"] for job in workflow["jobs"].values() for step in job["steps"] if "run" in step]
+    container = json.loads((ROOT / ".devcontainer" / "devcontainer.json").read_text(encoding="utf-8"))
+    called = make_targets("\n".join([*steps, container["postCreateCommand"]]))
+    assert called
+    variables = dict(re.findall(r"^(\w+) := (\S+)$", MAKEFILE, re.MULTILINE))
+    made = re.sub(r"\$\((\w+)\)", lambda name: variables.get(name[1], ""), MAKEFILE)
+    made = re.sub(r"\$\((\w+)\)", lambda name: variables.get(name[1], ""), made)
+    assert called <= set(re.findall(r"^([\w./-]+):(?!=)", made, re.MULTILINE))
+    for script in (".ci/run", ".ci/browser", "binder/postBuild"):
+        assert os.access(ROOT / script, os.X_OK), script
+
+
+def test_every_supported_python_is_tried():
+    workflow = read_yaml(".github/workflows/ci.yml")
+    tried = workflow["jobs"]["test"]["strategy"]["matrix"]["python"]
+    assert PROJECT["requires-python"] == f">={tried[0]}"
+    assert tried == [f"3.{minor}" for minor in range(11, 15)]
+    used = [*re.findall(r'python-version: "([\d.]+)"', (ROOT / ".github/workflows/ci.yml").read_text(encoding="utf-8"))]
+    used += re.findall(r"python-([\d.]+)", (ROOT / "binder/runtime.txt").read_text(encoding="utf-8"))
+    used += re.findall(r"python:([\d.]+)", (ROOT / ".devcontainer/devcontainer.json").read_text(encoding="utf-8"))
+    assert len(used) == 4
+    assert set(used) <= set(tried)
+
+
+def test_binder_takes_the_lock_and_the_hooks_take_its_tools():
+    assert (ROOT / "binder" / "requirements.txt").read_text(encoding="utf-8").split() == ["-r", "../requirements.lock"]
+    locked = {line.partition("==")[0] for line in (ROOT / "requirements.lock").read_text(encoding="utf-8").splitlines()}
+    hooks = [hook for repo in read_yaml(".pre-commit-config.yaml")["repos"] for hook in repo["hooks"]]
+    tools = {"ruff": "ruff", "python -m mypy": "mypy", "lint-imports": "import-linter"}
+    for hook in hooks:
+        (tool,) = (package for start, package in tools.items() if hook["entry"].startswith(f".venv/bin/{start}"))
+        assert tool in locked
