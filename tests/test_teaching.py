@@ -1,7 +1,9 @@
 """A gear pair for every student, answers as plain data, and marks; the course itself is graded by `make teach`."""
 
 import json
+import os
 import re
+import subprocess
 from itertools import product
 from pathlib import Path
 
@@ -212,3 +214,14 @@ def test_a_chapter_can_be_taught_from(path):
         ends = [i for i, cell in enumerate(cells) if "{solution-end}" in cell.source and i > starts[0]]
         assert len(starts) == 1
         assert any(cell.cell_type == "code" for cell in cells[starts[0] : ends[0]])
+
+
+@pytest.mark.parametrize(("fails", "code"), [("none", 0), ("test", 1), ("teach", 1)])
+def test_continuous_integration_runs_tests_and_course_and_fails_with_either(tmp_path, fails, code):
+    make = tmp_path / "make"
+    make.write_text(f'#!/bin/sh\necho "$1" $(cat | wc -c)\ntest "$1" != {fails}\n')
+    make.chmod(0o755)
+    run = Path(__file__).parents[1] / ".ci" / "run"
+    environment = {**os.environ, "PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}"}
+    done = subprocess.run([run], env=environment, input="typed", capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (code, "test 0\nteach 0\n")
