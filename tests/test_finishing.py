@@ -69,8 +69,8 @@ def test_the_pages_become_one_document_whose_links_stay_inside(small_book):
     page = "<html><head></head><body><nav>menu</nav><article><h1>{}</h1>{}</article></body></html>"
     (html / "introduction.html").write_text(page.format("First", first))
     second = f'<p id="there"><img src="../../_images/a.png"></p>{folded}'
-    (html / "chapters" / "small.html").write_text(page.format("Second", second))
-    text = one_document(Book(small_book), {"First": 2, "Second": 7}, '<img src="data:,still">')
+    (html / "chapters" / "small.html").write_text(page.format("The second", second))
+    text = one_document(Book(small_book), {"First": 2, "Thesecond": 7}, '<img src="data:,still">')
     for piece in (
         '<a href="#book-chapters-small--there">x</a>',
         '<a href="https://example.org/">y</a>',
@@ -78,7 +78,7 @@ def test_the_pages_become_one_document_whose_links_stay_inside(small_book):
         '<a href="#book-chapters-small">w</a>',
         'id="book-chapters-small--there"',
         'src="_images/a.png"',
-        '<a href="#book-chapters-small">Second</a><span>7</span>',
+        '<a href="#book-chapters-small">The second</a><span>7</span>',
         '<img src="data:,still"/>',
         "kept",
     ):

@@ -39,6 +39,7 @@ pre { white-space: pre-wrap; overflow-wrap: anywhere; }
 img { max-height: 17cm; }
 table { font-size: 0.85em; width: 100%; }
 td, th { overflow-wrap: break-word; padding: 0.3em 0.4em; }
+.long-table td { padding: 0.05em 0.4em; }
 .cover { padding-top: 12vh; }
 .cover .title { font-size: 2.4rem; }
 .contents { list-style: none; padding: 0; }
@@ -68,7 +69,7 @@ def print_book(book: Book, output: Path) -> int:
             _print(book.html, together.name, output)
             reader = PdfReader(output)
             numbers = {
-                str(entry.title): reader.get_destination_page_number(entry) + 1
+                _key(str(entry.title)): reader.get_destination_page_number(entry) + 1
                 for entry in reader.outline
                 if not isinstance(entry, list)
             }
@@ -120,7 +121,7 @@ def one_document(book: Book, numbers: Mapping[str, int], still: str = "") -> str
     )
     pages = {name: _article(book.html, name, still) for name in (root, *book.pages())}
     contents = "".join(
-        f'<li><a href="#{_slug(name)}">{_title(article)}</a><span>{numbers.get(_title(article), "")}</span></li>'
+        f'<li><a href="#{_slug(name)}">{_title(article)}</a><span>{numbers.get(_key(_title(article)), "")}</span></li>'
         for name, article in pages.items()
     )
     cover = f'<section class="cover"><p class="title">{book.title}</p><ul class="contents">{contents}</ul></section>'
@@ -163,6 +164,11 @@ def _article(site: Path, name: str, still: str) -> Tag:
 def _title(article: Tag) -> str:
     heading = article.find("h1")
     return heading.text.strip() if heading else ""
+
+
+def _key(title: str) -> str:
+    """A title without its spaces: the browser's outline loses the one where a heading is broken into two lines."""
+    return "".join(title.split())
 
 
 def _slug(name: str) -> str:
