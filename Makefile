@@ -121,7 +121,8 @@ TEACH_READY := $(TEACH_VENV)/.ready
 TEACH_ARGS ?=
 
 teach: $(TEACH_READY)
-	@$(TEACH_VENV)/bin/python -m pytest -o addopts= -p no:cacheprovider -n 2 --dist loadgroup tests/teach $(TEACH_ARGS)
+	@$(TEACH_VENV)/bin/python -m pytest -o addopts= -p no:cacheprovider -n 2 --dist loadfile --no-loadscope-reorder \
+		tests/teach $(TEACH_ARGS)
 
 $(TEACH_READY): requirements-teach.lock pyproject.toml
 	@$(if $(PYTHON),$(PYTHON),false) -c '$(VERSION_CHECK)' || { echo "gearpair needs Python 3.11 or newer" >&2; exit 1; }

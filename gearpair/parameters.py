@@ -31,6 +31,7 @@ DRIVE = (
 ANY_SPEED = 1000.0  # rpm, of a drive that is checked for all else
 STANDS_FOR = {"lowest": "mesh_frequency", "highest": "mesh_frequency", "chaos_near": "mesh_frequency"}
 STARTS = ("first_start", "second_start")
+SPEEDS = ("lowest_rpm", "highest_rpm")  # none: the chapter's choice
 FEWEST = {
     "n_values": 2,
     "n_fine": 2,
@@ -78,7 +79,7 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
     for name, scalar in {**STANDS_FOR, **stands_for}.items():
         if name in values:
             _check_as(name, partial(osc.replace, **{scalar: values[name]}))
-    for low, high in (("lowest", "highest"), ("lowest_rpm", "highest_rpm")):
+    for low, high in (("lowest", "highest"), SPEEDS):
         first, last = values.get(low), values.get(high)
         if first is not None and last is not None and not first < last:
             raise ValueError(f"{low} must be below {high}, got {low} = {first} and {high} = {last}")
@@ -109,9 +110,9 @@ def _check_alone(name: str, value: Any) -> None:
         _check_as(name, lambda: check_start(*value))
     elif name in ("start_x", "start_v"):
         check_number(name, value)
-    elif name in ("x_reach", "v_reach") or (name in ("lowest_rpm", "highest_rpm") and value is not None):
+    elif name in ("x_reach", "v_reach", "pinion_torque_nm") or (name in SPEEDS and value is not None):
         check_number(name, value, above=0.0)
-    elif name == "narrowest":
+    elif name in ("narrowest", "base_pitch_um", "profile_um"):
         check_number(name, value, at_least=0.0)
     elif name == "tolerances":
         if not value:

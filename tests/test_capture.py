@@ -171,8 +171,17 @@ def test_numbering_does_not_depend_on_how_the_starts_are_cut():
         np.testing.assert_array_equal(again[name], column)
 
 
+def test_a_batch_tells_the_most_that_it_may_take_before_it_starts(capsys):
+    """Without damping there is nothing to wait for: 500 mesh periods, and the 30 of the exponents."""
+    osc = BASELINE.replace(damping_ratio=0.0)
+    gp.basins(osc, np.linspace(-2, 2, 10), np.linspace(-1, 1, 10), n_exponent=30, progress=True)
+    assert "at most 5.3e+04 mesh periods:   0%" in capsys.readouterr().err
+    gp.parameter_map(osc, {"mesh_frequency": [0.7, 0.8]}, most_work=1000, progress=True)
+    assert "at most 1.0e+03 mesh periods:   0%" in capsys.readouterr().err
+
+
 def test_without_damping_the_limit_on_work_ends_it():
-    """Nothing settles, and 20 000 periods a start would take minutes; with a limit each start gets its share."""
+    """Nothing settles; with a limit each start gets its share."""
     osc = BASELINE.replace(damping_ratio=0.0)
     plane = gp.basins(osc, np.linspace(-2, 2, 20), np.linspace(-1, 1, 10), most_work=20_000)
     assert set(np.unique(plane.status)) <= {"exhausted", "escaped"}

@@ -138,7 +138,7 @@ def test_what_will_take_long_is_told_before_it_starts(small_book, tmp_path, monk
     made = {"gearpair": {"seconds": 30.0, "parameters": {}}}
     parameters = "damping_ratio: float = 0.02  # zeta\nn_values: int = 11  # values"
     write_notebook(small_book / "notebooks" / "small.ipynb", "pass", parameters=parameters)
-    words = ["run", "small", "--quiet", "-p", "damping_ratio", "0", "-p", "n_values", "22"]
+    words = ["run", "small", "--quiet", "-p", "damping_ratio", "1e-4", "-p", "n_values", "22"]
     assert run(small_book, *words) == 0
     sentence = "small: with these parameters about 80 times the work of the chapter as it stands"
     assert capsys.readouterr().err == f"{sentence}\n"

@@ -26,6 +26,9 @@ DRIVE = {"pinion_torque_nm": 120.0, "backlash_um": 100.0, "transmission_error_um
         ({"n_values": 1}, "n_values must be a whole number of at least 2, got 1"),
         ({"n_reached": 0}, "n_reached must be a whole number of at least 1, got 0"),
         ({**DRIVE, "backlash_um": -1.0}, "backlash_um must be a finite number above 0, got -1.0"),
+        ({**DRIVE, "pinion_torque_nm": 0.0}, "pinion_torque_nm must be a finite number above 0, got 0.0"),
+        ({**DRIVE, "pinion_torque_nm": -5.0}, "pinion_torque_nm must be a finite number above 0, got -5.0"),
+        ({"profile_um": -1.0}, "profile_um must be a finite number at least 0, got -1.0"),
         ({**DRIVE, "backlash": "wide"}, "backlash must be one of 'normal', 'circumferential', 'thickness', got 'wide'"),
         (
             {"lowest_rpm": 3000.0, "highest_rpm": 2000.0},

@@ -115,7 +115,8 @@ def test_a_period_beyond_the_stated_maximum_is_not_made_up(along_frequency):
 def test_the_transient_is_long_enough_for_the_damping():
     """At zeta = 0.00275 a stable cycle needs hundreds of periods; a start far out settles all the same."""
     assert transient_periods(gp.Oscillator(damping_ratio=0.00275)) > 800
-    assert transient_periods(gp.Oscillator(damping_ratio=0.0)) == transient_periods(gp.Oscillator(damping_ratio=1e-9))
+    assert transient_periods(gp.Oscillator(damping_ratio=1e-9)) == 20_000
+    assert transient_periods(gp.Oscillator(damping_ratio=0.0)) == 500
     near = gp.steady_state(gp.Oscillator(mesh_frequency=1.5, damping_ratio=0.002), 1.2, 0.0)
     assert near.status in ("periodic", "aperiodic")
 

@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -17,6 +18,9 @@ from gearpair.motion import decoded, stores
 zarr = pytest.importorskip("zarr", reason="the extra 'cluster' is not installed")
 
 ROOT = Path(__file__).parents[1]
+KILLS = int(
+    os.environ.get("GEARPAIR_KILLS", "3")
+)  # a few seconds each: more than a few outside of continuous integration
 OSC = gp.Oscillator(mesh_frequency=0.9)
 X, V = np.linspace(-3.0, 3.0, 12), np.linspace(-2.0, 2.0, 10)
 AXES = {"mesh_frequency": [0.7, 0.8, 0.9, 1.2], "damping_ratio": [0.05, 0.1, 0.2]}
@@ -135,3 +139,34 @@ def kill_on_the_way(script, path, victim):
     for pid in workers[:1] if victim == "worker" else [run.pid, *workers]:
         os.kill(pid, signal.SIGKILL)
     run.wait()
+
+
+def test_again_and_again_a_worker_is_killed_on_the_way(tmp_path, monkeypatch):
+    """SIGKILL to one of three workers as soon as a block is written, `KILLS` planes in turn: no bit differs."""
+    distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
+    monkeypatch.setattr(stores, "BLOCK_POINTS", 40)
+    x, v = np.linspace(-3.0, 3.0, 40), np.linspace(-2.0, 2.0, 12)
+    plain = gp.basins(OSC, x, v, n_exponent=50)
+    unfinished = []
+
+    def kill(path, pid):
+        while not any(marks(path)):
+            time.sleep(0.005)
+        os.kill(pid, signal.SIGKILL)
+        unfinished.append(not all(marks(path)))
+
+    monkeypatch.setenv("NUMBA_NUM_THREADS", "1")
+    cluster = distributed.LocalCluster(n_workers=3, threads_per_worker=1, dashboard_address=None)
+    with cluster, distributed.Client(cluster) as client:
+        for k in range(KILLS):
+            nanny = cluster.workers[k % 3]
+            victim = nanny.pid
+            killer = threading.Thread(target=kill, args=(tmp_path / str(k), victim))
+            killer.start()
+            stored = gp.basins(OSC, x, v, n_exponent=50, store=tmp_path / str(k), client=client)
+            killer.join()
+            assert_identical(decoded(stored), plain)
+            while nanny.pid in (None, victim) or nanny.status.name != "running":
+                time.sleep(0.05)
+            client.wait_for_workers(3)
+    assert all(unfinished)

@@ -1,9 +1,14 @@
 """A gear pair for every student, answers as plain data, and marks; the course itself is graded by `make teach`."""
 
 import json
+import os
+import re
+import subprocess
 from itertools import product
+from pathlib import Path
 
 import matplotlib.pyplot as plt
+import nbformat
 import numpy as np
 import pytest
 
@@ -188,3 +193,35 @@ def test_before_the_tests_a_cell_says_only_what_is_missing(capsys):
     assert capsys.readouterr().out.splitlines() == ["b: no answer yet", "c: no answer yet"]
     marks.expect(a=1.0)
     assert "every answer asked for is there" in repr(marks)
+
+
+CHAPTERS = [
+    path for path in sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb")) if path.stem != "library"
+]
+
+
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+def test_a_chapter_can_be_taught_from(path):
+    """Goals at its head, a summary, at least four exercises; their solutions folded, with an executed cell."""
+    cells = nbformat.read(path, as_version=4).cells
+    text = "\n".join(cell.source for cell in cells)
+    assert "```{admonition} What you will learn" in cells[1].source and "**Before:**" in cells[1].source
+    assert "\n## Summary\n" in text
+    labels = re.findall(r"^`{3,}\{exercise\}.*\n:label: (\S+)$", text, re.MULTILINE)
+    assert len(labels) >= 4
+    for label in labels:
+        starts = [i for i, cell in enumerate(cells) if f"{{solution-start}} {label}\n:class: dropdown" in cell.source]
+        ends = [i for i, cell in enumerate(cells) if "{solution-end}" in cell.source and i > starts[0]]
+        assert len(starts) == 1
+        assert any(cell.cell_type == "code" for cell in cells[starts[0] : ends[0]])
+
+
+@pytest.mark.parametrize(("fails", "code"), [("none", 0), ("test", 1), ("teach", 1)])
+def test_continuous_integration_runs_tests_and_course_and_fails_with_either(tmp_path, fails, code):
+    make = tmp_path / "make"
+    make.write_text(f'#!/bin/sh\necho "$1" $(cat | wc -c)\ntest "$1" != {fails}\n')
+    make.chmod(0o755)
+    run = Path(__file__).parents[1] / ".ci" / "run"
+    environment = {**os.environ, "PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}"}
+    done = subprocess.run([run], env=environment, input="typed", capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (code, "test 0\nteach 0\n")

@@ -71,7 +71,7 @@ def settle_from(
     n_transient = transient_periods(osc) if settings.n_transient is None else settings.n_transient
     most = settings.share_of_work(len(starts)) if share is None else share
     arguments = (osc.cells, starts, n_transient, settings.max_period, settings.n_exponent, most, known, out)
-    with stoppable(out, progress) as done:
+    with stoppable(out, progress, len(starts) * min(n_transient + settings.n_exponent, most)) as done:
         on_all_cores(settle_starts, arguments, len(starts), BLOCK if cores else max(len(starts), 1), done)
     return out
 

@@ -71,7 +71,7 @@ def basins(
     client : distributed.Client, optional
         Compute the blocks on its workers, which must see the path of the store.
     progress : bool
-        Show a progress bar on stderr.
+        Show a progress bar on stderr, with the most mesh periods that all may take.
 
     Returns
     -------

@@ -97,7 +97,8 @@ class SettleSettings:
 def transient_periods(osc: Oscillator) -> int:
     """Mesh periods that a transient needs to fall to 9 digits at best: ``20 / (zeta T)``, within 500 to 20 000.
 
-    Transients die like exp(-zeta tau) at best, slower near a bifurcation.
+    Transients die like exp(-zeta tau) at best, slower near a bifurcation. Without damping none dies and the map
+    preserves areas: there is nothing to wait for, and 500 are as good as any.
 
     Examples
     --------
@@ -105,7 +106,7 @@ def transient_periods(osc: Oscillator) -> int:
     811
     """
     rate = osc.damping_ratio * osc.period
-    return int(np.clip(np.ceil(20.0 / rate), 500, 20_000)) if rate > 0.0 else 20_000
+    return int(np.clip(np.ceil(20.0 / rate), 500, 20_000)) if rate > 0.0 else 500
 
 
 def settle_lanes(
@@ -148,7 +149,7 @@ def settle_lanes(
     known = Known(room(0, settings), np.empty((0, COLUMNS)))
     lanes = lanes_of(oscillators, starts, settings)
     arguments = (lanes, chain, settings.max_period, settings.n_exponent, most, known, out)
-    with stoppable(out, progress) as done:
+    with stoppable(out, progress, np.minimum(lanes.n_transient + settings.n_exponent, most).sum()) as done:
         if chain == n or not cores:
             for first in range(0, n, BLOCK):
                 last = min(first + BLOCK, n)
@@ -160,10 +161,13 @@ def settle_lanes(
 
 
 @contextmanager
-def stoppable(out: Settled, progress: bool) -> Iterator[Callable[[int], object]]:
-    """A progress bar over a batch, moved by calling what is yielded; Ctrl-C keeps the rows that are done."""
+def stoppable(out: Settled, progress: bool, most: float) -> Iterator[Callable[[int], object]]:
+    """A progress bar over a batch, moved by calling what is yielded; Ctrl-C keeps the rows that are done.
+
+    It tells beforehand the `most` mesh periods that the batch may take, about a microsecond each.
+    """
     n = len(out.status)
-    with tqdm(total=n, unit="motion", disable=not progress) as bar:
+    with tqdm(desc=f"at most {most:.1e} mesh periods", total=n, unit="motion", disable=not progress) as bar:
         try:
             yield bar.update
         except KeyboardInterrupt:

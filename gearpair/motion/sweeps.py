@@ -67,7 +67,7 @@ def sweep(
     n_samples : int
         Section points kept per value; at least `max_period` are.
     progress : bool
-        Show a progress bar on stderr.
+        Show a progress bar on stderr, with the most mesh periods that all may take.
 
     Returns
     -------
@@ -142,7 +142,7 @@ def parameter_map(
     store, client
         As in `gearpair.basins`.
     progress : bool
-        Show a progress bar on stderr.
+        Show a progress bar on stderr, with the most mesh periods that all may take.
 
     Returns
     -------

@@ -1,5 +1,6 @@
 """A class of forty in one run of autograde, each with a gear pair of its own."""
 
+import csv
 import time
 
 import nbformat
@@ -10,9 +11,7 @@ from gearpair import teaching
 NAME = "stiffness"
 CLASS = [f"student{number:02}" for number in range(40)]
 QUESTIONS = ("your-id", "setup", "contact-ratio", "test-contact-ratio", "why-stiffest")
-MARKS = 3.0
-
-pytestmark = pytest.mark.xdist_group("class")
+MARKS, WRITTEN = 3.0, 2.0
 
 
 @pytest.fixture
@@ -27,7 +26,7 @@ def course(courses):
     return courses("class", NAME, shortened)
 
 
-def test_a_class_of_forty_is_graded_in_one_run(course, record_property):
+def test_a_class_of_forty_is_graded_in_one_run_and_its_marks_go_to_a_spreadsheet(course, record_property):
     assert len({repr(teaching.personal_drive(student)) for student in CLASS}) == len(CLASS)
     for student in CLASS:
         course.submit(NAME, student, course.solution(NAME, student))
@@ -35,6 +34,10 @@ def test_a_class_of_forty_is_graded_in_one_run(course, record_property):
     course.nbgrader("autograde", NAME)
     record_property("a class of forty, one question", f"{time.perf_counter() - started:.0f} s")
     assert course.marks(NAME) == dict.fromkeys(CLASS, MARKS)
+    course.nbgrader("export")
+    with open(course.root / "grades.csv", newline="", encoding="utf-8") as file:
+        rows = {row["student_id"]: (float(row["score"]), float(row["max_score"])) for row in csv.DictReader(file)}
+    assert rows == dict.fromkeys(CLASS, (MARKS, MARKS + WRITTEN))
 
 
 def test_students_can_validate_before_they_submit(course):

@@ -1,4 +1,4 @@
-"""Submissions that do not end, and submissions that would rather change the marks than the answers."""
+"""Submissions that would rather change the marks than the answers."""
 
 import nbformat
 import pytest
@@ -86,43 +86,18 @@ def moves_the_tests(notebook):
     notebook.cells = tests + [cell for cell in notebook.cells if cell not in tests]
 
 
-@pytest.mark.xdist_group("tampered")
 @pytest.mark.parametrize("student", ["edits_a_test", "raises_the_points", "deletes_a_test", "patches_the_library"])
 def test_an_attack_leaves_the_marks_that_the_answers_are_worth(tampered, student):
     assert tampered.marks(NAME)["honest"] == HONEST
     assert tampered.marks(NAME)[student] == HONEST
 
 
-@pytest.mark.xdist_group("tampered")
 @pytest.mark.parametrize("student", ["brings_a_test", "moves_the_tests"])
 def test_an_attack_that_spoils_the_submission_is_no_gain(tampered, student):
     assert tampered.marks(NAME).get(student, 0.0) <= HONEST
 
 
-@pytest.mark.xdist_group("tampered")
 def test_the_id_of_somebody_else_is_told(tampered):
     assert tampered.marks(NAME)["copycat"] <= FULL / 2
     for student in ("copycat", "patches_the_library"):
         assert f"the notebook of {student} was worked on with the id 'ada'" in tampered.log
-
-
-LOOP = "while True:\n    pass"
-DEAF = "while True:\n    try:\n        while True:\n            pass\n    except BaseException:\n        pass"
-# what is written behind an answer, and the marks that are left
-ENDLESS = {
-    "endless": (FULL, ("mesh-stiffness", "### END SOLUTION", LOOP)),  # stopped, and goes on with the next cell
-    "deaf": (
-        0.0,
-        ("contact-ratio", "### END SOLUTION", DEAF),
-    ),  # stopped with its kernel, before any question was asked
-    "dying": (3.0, ("mesh-stiffness", "### END SOLUTION", "import os\nos._exit(0)")),  # after the first question
-}
-
-
-@pytest.mark.xdist_group("endless")
-def test_what_does_not_end_is_stopped_and_graded(courses):
-    course = courses("endless", NAME)
-    for student, (_, edit) in ENDLESS.items():
-        course.submit(NAME, student, course.solution(NAME, student, edit))
-    course.nbgrader("autograde", NAME, "--GradeApart.timeout=20")
-    assert course.marks(NAME) == {student: marks for student, (marks, _) in ENDLESS.items()}

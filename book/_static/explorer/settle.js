@@ -17,7 +17,7 @@ gearpair.define("settle", ["flow", "tangent", "observe"], function (flow, tangen
   // Mesh periods that a transient needs to fall to 9 digits at best.
   function transientPeriods(cells) {
     const rate = cells.dampingRatio * cells.period;
-    return rate > 0 ? Math.min(Math.max(Math.ceil(20 / rate), 500), 20000) : 20000;
+    return rate > 0 ? Math.min(Math.max(Math.ceil(20 / rate), 500), 20000) : 500;
   }
 
   // How far two states lie apart, relative to max(1, |X|, |X'|).
