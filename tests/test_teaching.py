@@ -216,12 +216,13 @@ def test_a_chapter_can_be_taught_from(path):
         assert any(cell.cell_type == "code" for cell in cells[starts[0] : ends[0]])
 
 
-@pytest.mark.parametrize(("fails", "code"), [("none", 0), ("test", 1), ("teach", 1)])
-def test_continuous_integration_runs_tests_and_course_and_fails_with_either(tmp_path, fails, code):
-    make = tmp_path / "make"
-    make.write_text(f'#!/bin/sh\necho "$1" $(cat | wc -c)\ntest "$1" != {fails}\n')
-    make.chmod(0o755)
+@pytest.mark.parametrize(("fails", "code"), [("none", 0), ("test", 1), ("teach", 1), ("check-site", 1)])
+def test_continuous_integration_runs_tests_course_and_gates_and_fails_with_any(tmp_path, fails, code):
+    (tmp_path / "make").write_text(f'#!/bin/sh\necho "$1" $(cat | wc -c)\ntest "$1" != {fails}\n')
+    (tmp_path / "java").write_text("#!/bin/sh\n")  # and a browser: nothing to install
+    for name in ("make", "java"):
+        (tmp_path / name).chmod(0o755)
     run = Path(__file__).parents[1] / ".ci" / "run"
-    environment = {**os.environ, "PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}"}
+    environment = {**os.environ, "PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}", "CHROMIUM": "chromium"}
     done = subprocess.run([run], env=environment, input="typed", capture_output=True, text=True)
-    assert (done.returncode, done.stdout) == (code, "test 0\nteach 0\n")
+    assert (done.returncode, done.stdout) == (code, "test 0\nteach 0\ncheck-site 0\n")

@@ -96,7 +96,8 @@ def basins(
     -----
     Attractors are looked for from some of the starts first. Around each stable cycle a neighbourhood is certified that
     no motion leaves, and every start is followed until one of them captures it: that is its settling time, rounded
-    up to a mesh period. What is not captured settles as in `steady_state`.
+    up to a mesh period. What is not captured settles as in `steady_state`: a chaotic transient that outlasts
+    `n_transient` is called aperiodic, which with weak damping happens to some starts in a hundred.
 
     Examples
     --------
