@@ -317,6 +317,15 @@ def test_bad_input_is_named(lower, upper, parameter, sentence):
         gp.continue_orbit(orbit_of(BASELINE), parameter, lower, upper)
 
 
+def test_a_branch_that_ends_at_the_bound_twice_is_one_branch():
+    """A fold's two orbits at the lower bound, where the walk ends up to rounding, lie on one branch."""
+    branches = gp.find_branches(BASELINE, "damping_ratio", 5e-5, 0.025, max_period=1, n_values=6)
+    folds = [b.value for branch in branches for b in branch.bifurcations if b.kind == "fold"]
+    assert folds == pytest.approx([0.0084], abs=1e-4)
+    ends = [tuple(np.round(branch.points[k, 0], 6)) for branch in branches for k in (0, -1)]
+    assert len(set(ends)) == len(ends)
+
+
 def test_a_branch_counts_the_contacts_of_each_side():
     """The baseline's period 2 strikes the drive side twice in its cycle and never the coast side."""
     orbit = gp.periodic_orbit(gp.Oscillator(), 0.34629, -0.25625, 2)

@@ -99,7 +99,8 @@ def _on_branch(branch: Branch, orbit: PeriodicOrbit) -> bool:
         return False
     value = orbit.oscillator.parameter(branch.parameter)
     left, right = branch.values[:-1], branch.values[1:]
-    for i in np.flatnonzero((np.minimum(left, right) <= value) & (value <= np.maximum(left, right))):
+    slack = 1e-12 * max(1.0, abs(value))  # a branch ends at a bound up to rounding
+    for i in np.flatnonzero((np.minimum(left, right) <= value + slack) & (value - slack <= np.maximum(left, right))):
         share = (value - left[i]) / (right[i] - left[i]) if right[i] != left[i] else 0.0
         x, v = (1.0 - share) * branch.points[i, 0] + share * branch.points[i + 1, 0]
         if np.min(np.max(np.abs(orbit.points - (x, v)), axis=1)) > 0.1:
