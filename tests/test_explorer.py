@@ -290,8 +290,10 @@ def test_the_legend_has_the_motion_shown_before_the_diagram_does(page):
 def test_the_track_of_each_slider_is_dark_up_to_its_thumb(page):
     browser = page()
     browser.run(f"{part('speed')}.value = 0.25; {part('speed')}.dispatchEvent(new Event('input'))")
-    tracks = browser.run("""[...document.querySelectorAll("input[type=range]")].map((range) => [
-      parseFloat(range.style.getPropertyValue("--filled")), (100 * (range.value - range.min)) / (range.max - range.min)])""")
+    tracks = browser.run("""[...document.querySelectorAll("input[type=range]")].map((range) => {
+      const share = (range.value - range.min) / (range.max - range.min);
+      return [parseFloat(range.style.getPropertyValue("--filled")), 100 * share];
+    })""")
     assert len(tracks) == 11
     assert all(filled == pytest.approx(thumb) for filled, thumb in tracks)
 
