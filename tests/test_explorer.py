@@ -278,6 +278,26 @@ def test_a_point_of_the_diagram_shows_its_motion(page):
     assert shown(browser, "range") == f"{truth.x_min:.3f} to {truth.x_max:.3f}"
 
 
+def test_the_legend_has_the_motion_shown_before_the_diagram_does(page):
+    browser = page()
+    wait_for_diagram(browser)
+    names = f"[...{part('legend')}.children].map((item) => item.textContent)"
+    assert len(browser.run(names)) > 1
+    browser.run(f"{EXPLORER}.diagram.columns = []; {EXPLORER}.diagram.describe()")
+    assert browser.run(names) == ["period 2"]
+
+
+def test_the_track_of_each_slider_is_dark_up_to_its_thumb(page):
+    browser = page()
+    browser.run(f"{part('speed')}.value = 0.25; {part('speed')}.dispatchEvent(new Event('input'))")
+    tracks = browser.run("""[...document.querySelectorAll("input[type=range]")].map((range) => {
+      const share = (range.value - range.min) / (range.max - range.min);
+      return [parseFloat(range.style.getPropertyValue("--filled")), 100 * share];
+    })""")
+    assert len(tracks) == 11
+    assert all(filled == pytest.approx(thumb) for filled, thumb in tracks)
+
+
 def test_a_motion_that_both_sweeps_miss_adds_its_branch(page):
     """The double-sided period 1, which has half of all starts at the baseline, hangs together with neither sweep."""
     browser = page("#x=-2.3&v=1.5")

@@ -187,6 +187,28 @@ def test_a_second_attractor_of_a_kind_is_paler(plane):
     first, second = plotting.planes.attractor_colours(twice)
     assert first == pytest.approx(to_rgb(plotting.motion_colour(periodic(1))))
     assert sum(second) > sum(first)
+    named = plotting.basins(twice).get_legend().get_patches()
+    assert [patch.get_facecolor()[:3] for patch in named] == [pytest.approx(first)]  # not in the paler shade
+
+
+def test_many_attractors_are_named_by_their_colours(plane):
+    many = plane.isel(attractor_number=[0, 1] * 5)
+    assert legend_texts(plotting.basins(many)) == ["period 1", "period 2"]
+
+
+def test_shares_have_at_each_value_the_colour_of_the_motion_there():
+    shares = gp.motion.continue_attractors(OSC, "mesh_frequency", [0.7, 0.72, 0.78], n=20, nearest=5.0)
+    ax = plotting.attractor_shares(shares)
+    (number,) = {int(i) for i in shares.attractor[(shares.attractor_period == 4).any("mesh_frequency")]}
+    assert shares.attractor_period.sel(attractor=number).values.tolist() == [2, 2, 4]
+    drawn = {area.get_label(): area for area in ax.collections}
+    for name, ends in {"period 2": (0.7, 0.75), "period 4": (0.75, 0.78)}.items():
+        across = drawn[name].get_paths()[0].vertices[:, 0]
+        assert (across.min(), across.max()) == pytest.approx(ends)
+        assert drawn[name].get_facecolor()[0][:3] == pytest.approx(
+            to_rgb(plotting.motion_colour(periodic(int(name[-1]))))
+        )
+    assert {"period 1", "period 2", "period 4"} <= set(legend_texts(ax))
 
 
 def test_attractor_points_are_the_cycles(plane):

@@ -1,7 +1,8 @@
-"""Maps over two parameters by impact and by measure, and the shares of all attractors along one."""
+"""Maps over two parameters by impact and by measure, and the shares of the attractors along one."""
 
 from __future__ import annotations
 
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from matplotlib.colors import LogNorm, Normalize, to_rgb
 
 from gearpair.motion.names import IMPACT_NAMES, Motion
 from gearpair.plotting.planes import IMPACT_COLOURS, name_colours
-from gearpair.plotting.style import LABELS, motion_colour, new_axes
+from gearpair.plotting.style import LABELS, add_motion_legend, motion_colour, new_axes
 
 QUANTITIES = {
     "load_factor": "dynamic load factor",
@@ -127,7 +128,7 @@ def _ends(values: np.ndarray) -> tuple[float, float]:
 
 
 def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
-    """The shares of all attractors along a parameter, stacked, with a triangle at each tipping point.
+    """The shares of the attractors along a parameter, stacked, with a triangle at each tipping point.
 
     Parameters
     ----------
@@ -140,8 +141,8 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
     Returns
     -------
     Axes
-        With one filled step for each attractor, in the colour of the motion that it mostly is, and a triangle at the
-        top where one has tipped to another.
+        With one filled step for each attractor, cut where its kind of motion changes and coloured by it, and a triangle
+        at the top where one has tipped to another.
 
     Examples
     --------
@@ -153,27 +154,29 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
     ax = new_axes(ax, 3.6)
     parameter = str(result.share.dims[0])
     values = result[parameter].values
+    between = 0.5 * (values[1:] + values[:-1])
+    edges = np.concatenate([values[:1], between, values[-1:]])
     below = np.zeros(len(values))
-    seen: dict[str, str] = {}
+    present = set()
     for number in range(result.sizes["attractor"]):
         own = result.isel(attractor=number)
-        share = np.nan_to_num(own.share.values)
-        kinds = [
-            Motion(str(status), int(period) or None)
-            for status, period in zip(own.attractor_status.values, own.attractor_period.values, strict=True)
-            if status
-        ]
-        kind = max(set(kinds), key=lambda motion: (kinds.count(motion), str(motion)))
-        ax.fill_between(
-            values, below, below + share, step="mid", facecolor=motion_colour(kind), edgecolor="white", linewidth=0.4,
-            label=str(kind),
-        )  # fmt: skip
-        seen.setdefault(str(kind), motion_colour(kind))
-        below = below + share
+        above = below + np.nan_to_num(own.share.values)
+        columns = own.attractor_status.values, own.attractor_period.values, above > below
+        kinds = [Motion(str(a), int(p) or None) if seen else None for a, p, seen in zip(*columns, strict=True)]
+        for kind, group in groupby(range(len(values)), kinds.__getitem__):
+            if kind is None:
+                continue
+            run = list(group)
+            steps = np.repeat(edges[run[0] : run[-1] + 2], 2)[1:-1]
+            ax.fill_between(
+                steps, np.repeat(below[run], 2), np.repeat(above[run], 2), facecolor=motion_colour(kind),
+                edgecolor="white", linewidth=0.4, label=str(kind),
+            )  # fmt: skip
+            present.add(kind)
+        below = above
     for i in np.flatnonzero(np.any(result.tips_to.values != -1, axis=1)):
-        between = 0.5 * (values[i - 1] + values[i])
-        ax.plot(between, 1.0, marker="v", markersize=4, color="black", clip_on=False, label="tipping point")
+        ax.plot(between[i - 1], 1.0, marker="v", markersize=4, color="black", clip_on=False, label="tipping point")
     ax.set(xlabel=LABELS[parameter], ylabel="share of the starts", xlim=(values.min(), values.max()), ylim=(0.0, 1.0))
     if legend:
-        name_colours(ax, {name: to_rgb(colour) for name, colour in seen.items()}, columns=min(len(seen), 7))
+        add_motion_legend(ax, present)
     return ax

@@ -18,6 +18,8 @@ from gearpair.motion.steady import SteadyState
 from gearpair.plotting.diagrams import shade_backlash
 from gearpair.plotting.style import LABELS, add_motion_legend, motion_colour, new_axes
 
+MOST_NAMED = 8  # attractors that a legend names one by one
+
 # The harsher the darker.
 IMPACT_COLOURS: Mapping[str, str] = {
     ImpactState.NEVER_IN_CONTACT: "#FFFFFF",
@@ -42,7 +44,7 @@ def attractor_colours(result: xr.Dataset) -> list[tuple[float, float, float]]:
 
 
 def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
-    """Which attractor each start reaches; starts that do not stay bounded are left white.
+    """Which attractor each start reaches, a second motion of a kind paler; starts that do not stay bounded are white.
 
     Parameters
     ----------
@@ -50,7 +52,7 @@ def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -
         Of `gearpair.basins`.
     ax : Axes, optional
     legend : bool
-        Name the attractors above the axes.
+        Name the attractors above the axes; where they are many, their colours.
 
     Returns
     -------
@@ -64,10 +66,15 @@ def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -
     ['period 1, double-sided', 'period 2, single-sided']
     """
     ax = new_axes(ax, 5.0)
-    colours = attractor_colours(result)
+    motions, colours = attractor_motions(result), attractor_colours(result)
     _map(ax, result, result.attractor.values + 1, [(1.0, 1.0, 1.0), *colours])
-    if legend:
-        name_colours(ax, dict(zip(map(str, attractor_motions(result)), colours, strict=True)))
+    if legend and len(motions) > MOST_NAMED:
+        add_motion_legend(ax, motions)
+    elif legend:
+        strongest: dict[str, tuple[float, float, float]] = {}
+        for motion, colour in zip(motions, colours, strict=True):
+            strongest.setdefault(str(motion), colour)
+        name_colours(ax, strongest)
     return ax
 
 

@@ -54,16 +54,21 @@ gearpair.define("controls", ["state"], function ({ NUMBERS, readValue, complaint
     return choice;
   }
 
+  // Darken the track of a slider up to its thumb.
+  function fill(range) {
+    range.style.setProperty("--filled", `${(100 * (range.valueAsNumber - range.min)) / (range.max - range.min)}%`);
+  }
+
   function show(form, fields, state) {
     for (const [name, { field, range }] of Object.entries(fields)) {
       if (range.shown === state[name]) continue;
       range.shown = state[name];
       range.value = state[name];
-      range.style.setProperty("--filled", `${(100 * (range.valueAsNumber - range.min)) / (range.max - range.min)}%`);
+      fill(range);
       field.value = Number(state[name].toPrecision(6));
     }
     for (const radio of form.querySelectorAll("[name=reading]")) radio.checked = radio.value === state.reading;
   }
 
-  return { build };
+  return { build, fill };
 });

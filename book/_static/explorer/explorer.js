@@ -12,7 +12,6 @@ gearpair.define(
         this.find = (name) => root.querySelector(`[data-part="${name}"]`);
         this.root = root;
         this.model = new models.Model();
-        this.speed = 0.6; // mesh periods a second
         this.playing = !player.prefersStill();
         this.time = 0;
         this.showControls = controls.build(this.find("controls"), (changes) => this.change(changes), (text) => this.say(text));
@@ -32,7 +31,7 @@ gearpair.define(
 
       listen() {
         this.find("play").addEventListener("click", () => this.play(!this.playing));
-        this.find("speed").addEventListener("input", ({ target }) => (this.speed = 10 ** target.valueAsNumber));
+        this.find("speed").addEventListener("input", ({ target }) => this.setSpeed(target));
         this.find("reset").addEventListener("click", () => this.change(states.DEFAULTS));
         this.find("link").addEventListener("click", () => this.copyLink());
         this.find("parameter").addEventListener("change", ({ target }) => this.change({ diagram: target.value }));
@@ -41,6 +40,7 @@ gearpair.define(
         new ResizeObserver(() => this.redraw()).observe(this.root);
         new MutationObserver(() => this.redraw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
         this.play(this.playing);
+        this.setSpeed(this.find("speed"));
       }
 
       readAddress() {
@@ -94,6 +94,11 @@ gearpair.define(
         const button = this.find("play");
         button.textContent = playing ? "Pause" : "Play";
         button.setAttribute("aria-pressed", String(playing));
+      }
+
+      setSpeed(slider) {
+        this.speed = 10 ** slider.valueAsNumber; // mesh periods a second
+        controls.fill(slider);
       }
 
       // The point of the diagram under the keyboard or the pointer: { column, point }, or null.
@@ -167,7 +172,7 @@ gearpair.define(
         const escaped = shown.name === "escaped"; // its colour is too faint for a line
         const colour = escaped ? theme.muted : theme.motion[plotting.colourName(shown.name)];
         if (colour !== this.colour) this.root.style.setProperty("--motion", (this.colour = colour));
-        this.diagram.mark({ value: state[state.diagram], points: shown.points, colour });
+        this.diagram.mark({ value: state[state.diagram], points: shown.points, colour, name: shown.name });
         const start = { x: state.x, v: state.v };
         this.historyPlot = history.drawHistory(this.find("history"), theme, { ...shown, colour });
         this.phasePlot = phase.drawPhase(this.find("phase"), theme, { ...shown, start, colour });

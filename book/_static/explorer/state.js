@@ -5,16 +5,16 @@ gearpair.define("state", [], function () {
     name, symbol, label, value, min, max, step, lowest, highest,
   });
   const NUMBERS = [
-    number("mesh_frequency", "Ω", "Mesh frequency", 0.7, 0.2, 3, 0.001),
+    number("mesh_frequency", "Ω<sub>h</sub>", "Mesh frequency", 0.7, 0.2, 3, 0.001),
     number("damping_ratio", "ζ", "Damping ratio", 0.02, 0, 0.2, 0.0005),
-    number("mean_force", "F<sub>m</sub>", "Mean force", 0.1, 0, 0.5, 0.005),
+    number("mean_force", "F<sub>m</sub>′", "Mean force", 0.1, 0, 0.5, 0.005),
     number("error_amplitude", "F<sub>ah</sub>", "Error amplitude", 0.2, 0, 1, 0.005),
-    number("error_phase", "φ", "Error phase (rad)", 0, -3.14, 3.14, 0.01, -6.3, 6.3),
+    number("error_phase", "φ<sub>h</sub>", "Error phase (rad)", 0, -3.14, 3.14, 0.01, -6.3, 6.3),
     number("contact_ratio", "ε", "Contact ratio", 1.68, 1.05, 1.95, 0.005, 1.01, 1.99),
     number("a", "a", "Added in double contact", 0.116, 0, 1, 0.002),
     number("b", "b", "Missing in single contact", 0.414, 0, 0.9, 0.002),
     number("x", "X<sub>0</sub>", "Displacement", 1, -6, 6, 0.01, -1000, 1000),
-    number("v", "V<sub>0</sub>", "Velocity", 0, -6, 6, 0.01, -1000, 1000),
+    number("v", "X<sub>0</sub>′", "Velocity", 0, -6, 6, 0.01, -1000, 1000),
   ];
   const CHOICES = [
     { name: "reading", value: "printed", choices: ["printed", "swapped"] },

@@ -40,7 +40,7 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
       this.sent = { id: this.order, ...order, count: COUNT, x, v };
       clearTimeout(this.timer);
       this.timer = setTimeout(() => this.worker.postMessage(this.sent), WAIT);
-      this.note.textContent = "computing …";
+      this.note.textContent = "sweeping up and down, takes some seconds …";
     }
 
     // Add the branch of a motion that both sweeps have missed: { value, points } on the section.
@@ -70,7 +70,7 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
       if (this.plot && before.bottom === after.bottom && before.top === after.top) this.drawColumns(batch);
       else this.draw(this.theme);
       this.describe();
-      this.note.textContent = done ? "" : `computing … ${Math.min(Math.round((50 * this.columns.length) / COUNT), 99)} %`;
+      this.note.textContent = done ? "" : `sweeping up and down … ${Math.min(Math.round((50 * this.columns.length) / COUNT), 99)} %`;
       this.busy = !done;
       if (done && this.missed) this.follow(this.missed);
     }
@@ -111,8 +111,10 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
       });
     }
 
+    // The legend: the motions in the diagram and the one that is marked.
     describe() {
       const present = new Set(this.columns.map(({ motion }) => colourName(motion)));
+      if (this.marked && this.marked.name !== "settling") present.add(colourName(this.marked.name));
       const names = MOTIONS.filter((name) => present.has(name));
       if (names.join() === this.names) return;
       this.names = names.join();
@@ -127,9 +129,10 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
       );
     }
 
-    // Mark the motion shown: { value, points, colour }, a line at its value and a ring around each of its points.
+    // Mark the motion shown: { value, points, colour, name }, a line at its value and a ring around each of its points.
     mark(marked) {
       this.marked = marked;
+      this.describe();
       if (!this.plot || !marked) return;
       const paper = prepare(this.overlay);
       const { ctx } = paper;

@@ -50,8 +50,8 @@ gearpair.define("plot", [], function () {
   }
 
   // Axes around the data of `range` { left, right, bottom, top }: draws them and returns the maps of data to pixels.
-  // `yTicks` are [value, text] where they are not plain numbers.
-  function axes({ ctx, width, height }, range, theme, { xLabel, yLabel, yTicks }) {
+  // `xTicks` and `yTicks` are [value, text] where they are not plain numbers.
+  function axes({ ctx, width, height }, range, theme, { xLabel, yLabel, xTicks, yTicks }) {
     const box = { left: 50, right: width - 8, top: 8, bottom: height - 36 };
     const x = (value) => box.left + ((value - range.left) / (range.right - range.left)) * (box.right - box.left);
     const y = (value) => box.bottom - ((value - range.bottom) / (range.top - range.bottom)) * (box.bottom - box.top);
@@ -65,10 +65,11 @@ gearpair.define("plot", [], function () {
     ctx.moveTo(box.left, box.top);
     ctx.lineTo(box.left, box.bottom);
     ctx.lineTo(box.right, box.bottom);
-    for (const value of ticks(range.left, range.right, Math.max(3, (box.right - box.left) / 70))) {
+    const across = Math.max(3, (box.right - box.left) / 70);
+    for (const [value, text] of xTicks ?? ticks(range.left, range.right, across).map((t) => [t, sign(t)])) {
       ctx.moveTo(x(value), box.bottom);
       ctx.lineTo(x(value), box.bottom + 4);
-      ctx.fillText(sign(value), x(value), box.bottom + 6);
+      ctx.fillText(text, x(value), box.bottom + 6);
     }
     ctx.textAlign = "right";
     ctx.textBaseline = "middle";

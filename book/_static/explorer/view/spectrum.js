@@ -2,13 +2,14 @@
 gearpair.define("spectrum_view", ["plot"], function ({ prepare, axes, inside }) {
   const HIGHEST = 5.2; // in mesh frequencies
   const [LEAST, MOST] = [-4, 1]; // powers of ten
+  const HALVES = [[0, "0"], [0.5, "1/2"], [1, "1"], [2, "2"], [3, "3"], [4, "4"], [5, "5"]];
   const POWERS = [[-4, "10⁻⁴"], [-3, "10⁻³"], [-2, "10⁻²"], [-1, "0.1"], [0, "1"], [1, "10"]];
 
   function drawSpectrum(canvas, theme, { spectrum, lines, colour }) {
     const paper = prepare(canvas);
     const { ctx } = paper;
     const range = { left: 0, right: HIGHEST, bottom: LEAST, top: MOST };
-    const words = { xLabel: "frequency / mesh frequency", yLabel: "amplitude of X", yTicks: POWERS };
+    const words = { xLabel: "frequency / mesh frequency", yLabel: "amplitude of X", xTicks: HALVES, yTicks: POWERS };
     const plot = axes(paper, range, theme, words);
     const { frequency, amplitude } = spectrum;
     inside(paper, plot, () => {
