@@ -21,7 +21,7 @@ class BasinEntropy:
         Basin entropy: the mean over all boxes.
     boundary_entropy : float
         Boundary basin entropy: the mean over boxes with more than one label; 0 where there is none. Above
-        ``log 2`` the boundary is fractal.
+        ``log 2`` the boundary is taken as fractal.
     boundary_boxes : float
         Share of the boxes with more than one label.
     """
