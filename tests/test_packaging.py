@@ -38,9 +38,9 @@ def installed(tmp_path_factory):
     options = ["--no-deps", "--no-build-isolation", "--no-index"]
     subprocess.run([*pip, "wheel", *options, "--wheel-dir", str(place), str(source)], check=True)
     (wheel,) = place.glob("*.whl")
-    subprocess.run(
-        [*pip, "install", "--no-deps", "--no-index", "--prefix", str(place / "prefix"), str(wheel)], check=True
-    )
+    # Without --ignore-installed pip takes the editable installation out of the environment that the tests run in.
+    options = ["--ignore-installed", "--no-deps", "--no-index", "--prefix", str(place / "prefix")]
+    subprocess.run([*pip, "install", *options, str(wheel)], check=True)
     return wheel, place / "prefix"
 
 
