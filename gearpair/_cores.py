@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any
 
 from numba import config
@@ -40,13 +40,11 @@ def on_all_cores(
             done(last - first)
         return
     with ThreadPoolExecutor(min(config.NUMBA_NUM_THREADS, len(blocks))) as pool:
-        waiting = {pool.submit(kernel, *ends, *arguments): ends for ends in blocks}
+        items = {pool.submit(kernel, first, last, *arguments): last - first for first, last in blocks}
         try:
-            while waiting:
-                for future in wait(waiting, return_when=FIRST_COMPLETED).done:
-                    first, last = waiting.pop(future)
-                    future.result()
-                    done(last - first)
+            for future in as_completed(items):
+                future.result()
+                done(items[future])
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
