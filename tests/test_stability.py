@@ -2,8 +2,10 @@
 
 import os
 
+import nbformat
 import pytest
 
+from gearpair.study import stability
 from gearpair.study.book import Book, accept_outputs
 from gearpair.study.cli import main
 from gearpair.study.stability import CONDITIONS, NUDGED, environment
@@ -44,3 +46,13 @@ def test_the_environment_is_put_back(monkeypatch):
     with environment({"NUMBA_NUM_THREADS": "1", "GEARPAIR_FMA": "0"}):
         assert (os.environ["NUMBA_NUM_THREADS"], os.environ["GEARPAIR_FMA"]) == ("1", "0")
     assert os.environ["NUMBA_NUM_THREADS"] == "2" and "GEARPAIR_FMA" not in os.environ
+
+
+def test_what_is_printed_in_pieces_is_the_same_as_in_one():
+    one, two = (
+        nbformat.v4.new_code_cell(outputs=[nbformat.v4.new_output("stream", text=text) for text in texts])
+        for texts in (["a\nb\n"], ["a\n", "b\n"])
+    )
+    assert stability._compared(one) == stability._compared(two)
+    two.outputs[1].text = "c\n"
+    assert stability._compared(one) != stability._compared(two)

@@ -73,8 +73,10 @@ def changed_cells(chapter: Chapter, condition: str) -> list[int]:
 
 
 def _compared(cell: nbformat.NotebookNode) -> list[tuple[str, Any]]:
-    """What a cell put out, less the numbers that count executions."""
-    return [(output.output_type, output.get("data", output.get("text"))) for output in cell.outputs]
+    """What a cell put out, less the numbers that count executions; what it printed in one piece, however it arrived."""
+    printed = "".join(output.text for output in cell.outputs if output.output_type == "stream")
+    shown = [(output.output_type, output.get("data")) for output in cell.outputs if output.output_type != "stream"]
+    return [("stream", printed), *shown]
 
 
 def check_stability(book: Book, names: tuple[str, ...] = ()) -> Iterator[tuple[str, str, list[int]]]:
