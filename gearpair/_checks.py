@@ -18,25 +18,23 @@ def check_number(
     at_most: float | None = None,
 ) -> float:
     """Return `value` as a float, or raise a ValueError that names it and the allowed range."""
+    is_number = isinstance(value, (float, Real)) and not isinstance(value, bool)  # most are floats, and told faster
+    number = float(value) if is_number else math.nan
+    if (
+        math.isfinite(number)
+        and (above is None or number > above)
+        and (at_least is None or number >= at_least)
+        and (below is None or number < below)
+        and (at_most is None or number <= at_most)
+    ):
+        return number
     limits = [
         f"{word} {limit:g}"
         for word, limit in (("above", above), ("at least", at_least), ("below", below), ("at most", at_most))
         if limit is not None
     ]
     allowed = "a finite number" + (" " + " and ".join(limits) if limits else "")
-    if isinstance(value, bool) or not isinstance(value, Real):
-        raise ValueError(f"{name} must be {allowed}, got {value!r}")
-    number = float(value)
-    inside = (
-        math.isfinite(number)
-        and (above is None or number > above)
-        and (at_least is None or number >= at_least)
-        and (below is None or number < below)
-        and (at_most is None or number <= at_most)
-    )
-    if not inside:
-        raise ValueError(f"{name} must be {allowed}, got {number!r}")
-    return number
+    raise ValueError(f"{name} must be {allowed}, got {number if is_number else value!r}")
 
 
 def check_count(name: str, value: Any, *, at_least: int = 1) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -106,8 +107,8 @@ class Oscillator:
             raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
         object.__setattr__(self, "harmonics", check_harmonics("harmonics", self.harmonics))
         check_number("mesh_frequency", self.mesh_frequency, at_most=LARGEST_MESH_FREQUENCY)
-        rate = max(2.0 * self.damping_ratio, np.sqrt(max(self.stiffness.levels)))
-        slowest = 2.0 * np.pi * rate / MOST_TURNS
+        rate = max(2.0 * self.damping_ratio, math.sqrt(max(self.stiffness.levels)))
+        slowest = 2.0 * math.pi * rate / MOST_TURNS
         if self.mesh_frequency < slowest:
             raise ValueError(
                 f"mesh_frequency must be at least {slowest:.3g} at this damping ratio and these stiffness levels "

@@ -137,7 +137,7 @@ def contracting_norms(steps, forms, factors):
 
 @allocating_kernel
 def grow(cells, x, v, form, parts, bounds, series):
-    """Let the bounds W of several radii grow over the mesh period that starts at (x, v) of the cycle."""
+    """Let the bounds W of several radii, largest first, grow over the mesh period from (x, v) of the cycle."""
     s = np.eye(2)
     region = first_region(cells, x, v)
     for j in range(cells.level.size):
@@ -160,7 +160,7 @@ def grow_segment(cells, j, region, duration, series, s, form, parts, bounds):
     zeta, own = cells.damping_ratio, stiffness * abs(region)
     start = s.copy()
     gap, bend, alpha, alpha_v, beta, beta_x = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    before = 0.0
+    before, jerk = 0.0, jerk_bound(series, width)
     for part in range(parts + 1):
         at = duration * np.sin(0.5 * np.pi * part / parts) ** 2
         p, _dp, ddp = evaluate(series, at)
@@ -178,17 +178,18 @@ def grow_segment(cells, j, region, duration, series, s, form, parts, bounds):
             # Between two points a curve is off its chord by at most h^2 / 8 times its second derivative, taken here
             # from the ends and, for the cycle, with the most that its jerk can add.
             slack = 1.1 * h * h / 8.0
-            sag = slack * (max(bend, bend1) + h * jerk_bound(series, width))
+            sag = slack * (max(bend, bend1) + h * jerk)
             a = max(alpha, alpha1) + slack * (own * max(alpha, alpha1) + 2.0 * zeta * max(alpha_v, alpha_v1))
             b = max(beta, beta1) + slack * (
                 2.0 * zeta * max(beta_x, beta_x1) + abs(4.0 * zeta * zeta - own) * max(beta, beta1)
             )
             for k in range(len(bounds)):
                 reach = a * bounds[k]
-                if reach > min(gap, gap1) - sag:
-                    excess = ramp(reach, gap - sag, gap1 - sag) - ramp(0.0, gap - sag, gap1 - sag)
-                    rate = h * b * stiffness
-                    bounds[k] = bounds[k] + rate * excess / (1.0 - rate * a) if rate * a < 1.0 else np.inf
+                if reach <= min(gap, gap1) - sag:
+                    break  # and none of the smaller ones
+                excess = ramp(reach, gap - sag, gap1 - sag) - ramp(0.0, gap - sag, gap1 - sag)
+                rate = h * b * stiffness
+                bounds[k] = bounds[k] + rate * excess / (1.0 - rate * a) if rate * a < 1.0 else np.inf
         before, gap, bend, alpha, alpha_v, beta, beta_x = at, gap1, bend1, alpha1, alpha_v1, beta1, beta_x1
 
 

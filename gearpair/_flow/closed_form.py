@@ -105,7 +105,7 @@ def add_shifted(forced, t, series):
 def expand(basis, shift, x, v, force, sine, cosine, series):
     """The motion's power series in t from its state and forcing at t = 0."""
     y = x - shift
-    for n in range(TERMS):
+    for n in range(basis.shape[1]):  # TERMS; a length that the compiler does not know is done several terms at once
         series[n] = (
             basis[0, n] * y + basis[1, n] * v + (basis[2, n] * force + basis[3, n] * sine + basis[4, n] * cosine)
         )

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from ._kernel import allocating_kernel, kernel
+from ._kernel import allocating_kernel, inlined_kernel, kernel
 from .cells import START, WIDTH
 from .closed_form import DEGREE, TERMS, evaluate, fourth_derivative_bound
-from .event_search import INSIDE, UNDECIDED, least_step, next_turn
+from .event_search import INSIDE, MONOTONE, UNDECIDED, least_step, next_turn
 from .march import (
     ESCAPED,
     EVENT_UNDECIDED,
@@ -17,6 +17,7 @@ from .march import (
     next_segment,
     region_after,
 )
+from .tangent import apply_map, apply_segment
 
 # Columns of a row that `measure` fills; what belongs to a side comes twice, drive first.
 IMPACTS, VELOCITY, VELOCITY_SUM, IMPULSE, SHARE, FORCE = 0, 2, 4, 6, 8, 10
@@ -28,10 +29,30 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(TERMS)
 
 
 @kernel
-def segment_extremes(series, end, low, high):
-    """Widen [low, high] to the range of the power series on [0, end]: its ends and every root of its slope."""
-    p, _dp, _ddp = evaluate(series, end)
-    low, high = min(low, min(series[0], p)), max(high, max(series[0], p))
+def segment_extremes(series, end, x, slope, low, high):
+    """Widen [low, high] to the range of the power series on [0, end], where it ends at `x` with `slope`.
+
+    The certificates are those of `event_search`: within [low, high], monotone, or with a curvature of one sign and so
+    of one turn at most. Where none holds, every root of the slope is looked for.
+    """
+    b0, b1, b2, b3 = series[0], series[0] + series[1] * end / 3.0, x - slope * end / 3.0, x
+    fourth = fourth_derivative_bound(series, end)
+    spread = fourth * end**4 / 384.0
+    if min(min(b0, b1), min(b2, b3)) - spread >= low and max(max(b0, b1), max(b2, b3)) + spread <= high:
+        return low, high
+    low, high = min(low, min(b0, b3)), max(high, max(b0, b3))
+    margin = MONOTONE * spread
+    rise = min(b1 - b0, min(b2 - b1, b3 - b2))
+    fall = min(b0 - b1, min(b1 - b2, b2 - b3))
+    if max(rise, fall) > margin:
+        return low, high
+    _p, _dp, bend = evaluate(series, end)
+    sag = fourth * end * end / 8.0  # between its ends the curvature is off its chord by at most this
+    if min(2.0 * series[2], bend) > sag or max(2.0 * series[2], bend) < -sag:
+        if series[1] * slope < 0.0:
+            p = only_turn(series, end, slope)
+            low, high = min(low, p), max(high, p)
+        return low, high
     t = next_turn(series, 0.0, end)
     while t <= end:
         p, _dp, _ddp = evaluate(series, t)
@@ -41,13 +62,24 @@ def segment_extremes(series, end, low, high):
 
 
 @kernel
-def segment_within(series, end, x, slope, low, high):
-    """Whether the power series certainly stays within [low, high] on [0, end], where it is `x` with `slope`."""
-    b1, b2 = series[0] + series[1] * end / 3.0, x - slope * end / 3.0
-    if min(min(series[0], b1), min(b2, x)) < low or max(max(series[0], b1), max(b2, x)) > high:
-        return False
-    spread = fourth_derivative_bound(series, end) * end**4 / 384.0
-    return min(min(series[0], b1), min(b2, x)) - spread >= low and max(max(series[0], b1), max(b2, x)) + spread <= high
+def only_turn(series, end, slope):
+    """The extremum inside [0, end] of a power series whose curvature keeps its sign and whose slope ends at `slope`."""
+    before, after = 0.0, end
+    t = end * series[1] / (series[1] - slope)
+    p = series[0]
+    for _ in range(60):
+        p, dp, ddp = evaluate(series, t)
+        step = dp / ddp
+        if abs(step) <= 1e-6 * end:  # its cube is below rounding
+            return p - 0.5 * step * dp
+        if dp * slope > 0.0:
+            after = t
+        else:
+            before = t
+        t -= step
+        if not before < t < after:
+            t = 0.5 * (before + after)
+    return p
 
 
 @kernel
@@ -56,9 +88,12 @@ def extremes(cells, x, v, n_periods, series):
     return widen(cells, x, v, n_periods, x, x, series)
 
 
-@kernel
-def widen(cells, x, v, n_periods, low, high, series):
-    """`extremes` of a motion whose range so far is [low, high]: cells that stay within it need no search."""
+@inlined_kernel
+def widen(cells, x, v, n_periods, low, high, series, m=None):
+    """`extremes` of a motion whose range so far is [low, high]: cells that stay within it need no search.
+
+    Where `m` (2, 2) is given, it is multiplied by the monodromy matrix of the span.
+    """
     region = first_region(cells, x, v)
     low, high = min(low, x), max(high, x)
     drive, coast = 0, 0
@@ -67,6 +102,8 @@ def widen(cells, x, v, n_periods, low, high, series):
         for j in range(cells.level.size):
             certain, x1, v1, hull_low, hull_high = follow_cell(cells, j, x, v, region)
             if certain and hull_low >= low and hull_high <= high:
+                if m is not None:
+                    apply_map(cells.maps[j, region + 1], m)
                 x, v = x1, v1
                 continue
             t = 0.0
@@ -74,8 +111,9 @@ def widen(cells, x, v, n_periods, low, high, series):
                 outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
                 if outcome == UNDECIDED:
                     return EVENT_UNDECIDED, x, v, low, high, drive, coast
-                if not segment_within(series, duration, x, v * cells.clock[j, WIDTH], low, high):
-                    low, high = segment_extremes(series, duration, low, high)
+                if m is not None:
+                    apply_segment(cells, j, region, duration, m)
+                low, high = segment_extremes(series, duration, x, v * cells.clock[j, WIDTH], low, high)
                 if outcome == INSIDE:
                     break
                 t += duration
@@ -163,7 +201,7 @@ def measure(cells, x, v, n_periods, series, row):
                 length, square = segment_moments(series, duration, origin)
                 first += length * width
                 second += square * width
-                low, high = segment_extremes(series, duration, np.inf, -np.inf)
+                low, high = segment_extremes(series, duration, x, v * width, np.inf, -np.inf)
                 row[LOWEST], row[HIGHEST] = min(row[LOWEST], low), max(row[HIGHEST], high)
                 if region != 0:
                     side = 0 if region > 0 else 1

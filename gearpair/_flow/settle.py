@@ -12,15 +12,18 @@ from ._kernel import allocating_kernel, kernel
 from .capture import COLUMNS, OWNER, V, X, inside, surround
 from .cells import Parameters, build_cells
 from .closed_form import TERMS
+from .exponents import exponents
 from .march import ESCAPED, OK, march
 from .observe import extremes, measure, widen
-from .tangent import NEWTON_STEPS, exponents, march_tangent, newton
+from .tangent import NEWTON_STEPS, march_tangent, newton
 
 PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED, NOT_RUN, EXHAUSTED = 0, 1, 2, 3, 4, 5, 6
 
 # A return as close as PROMISING, relative to max(1, |X|, |X'|), is worth a Newton search for a stable orbit whose
 # neighbourhood may capture the motion: a short one, for most are in vain, and then the next return must be LESS as far.
 PROMISING, LESS, FEW_STEPS = 1e-2, 0.1, 7
+# The trace of a stable orbit is below 2 in modulus; a search from a point where it exceeds this is in vain.
+MOST_TRACE = 10.0
 # Where no neighbourhood can be certified, a return within RETURNED counts if the stable orbit lies within CAPTURED.
 RETURNED, CAPTURED = 1e-8, 1e-6
 # Periods after which a motion is first compared with where it was; the span doubles up to the longest period.
@@ -94,27 +97,9 @@ def distance(x, v, x0, v0):
 
 
 @kernel
-def find_return(cells, x, v, max_period, closeness, capture, m, series):
-    """March until the motion returns to a stable orbit's neighbourhood: (status, period, x, v, x*, v*).
-
-    The period is 0 where it did not within `max_period` periods; (x*, v*) is then meaningless.
-    """
-    x0, v0 = x, v
-    for period in range(1, max_period + 1):
-        status, x, v = march(cells, x, v, 1, series)
-        if status != OK:
-            return status, 0, x, v, x, v
-        if distance(x, v, x0, v0) <= closeness:
-            found, xs, vs = stable_orbit(cells, x, v, period, NEWTON_STEPS, m, series)
-            if found > 0 and distance(x, v, xs, vs) <= capture:
-                return OK, found, x, v, xs, vs
-    return OK, 0, x, v, x, v
-
-
-@kernel
-def stable_orbit(cells, x, v, period, steps, m, series):
+def stable_orbit(cells, x, v, period, steps, most_trace, m, series):
     """The stable orbit that Newton's method finds from (x, v): (minimal period or 0, x*, v*); `m` its monodromy."""
-    converged, xs, vs, _residual = newton(cells, x, v, period, m, series, steps)
+    converged, xs, vs, _residual = newton(cells, x, v, period, m, series, steps, most_trace)
     if converged and spectral_radius(m) < STABLE:
         return minimal_period(cells, xs, vs, period, m, series), xs, vs
     return 0, xs, vs
@@ -145,12 +130,15 @@ def follow(cells, x, v, n_transient, max_period, n_known, neighbourhoods, way, m
         held = inside(neighbourhoods, n, x, v)
         gap = distance(x, v, x0, v0)
         if held < 0 and gap <= closeness:
-            steps = NEWTON_STEPS if gap <= RETURNED else FEW_STEPS
-            found, xo, vo = stable_orbit(cells, x, v, within, steps, m, series)
+            steps, most_trace = (NEWTON_STEPS, np.inf) if gap <= RETURNED else (FEW_STEPS, MOST_TRACE)
+            found, xo, vo = stable_orbit(cells, x, v, within, steps, most_trace, m, series)
             if found > 0 and inside(neighbourhoods, n_known, xo, vo) < 0:
-                period, xs, vs, n = found, xo, vo, n_known
-                if surround(cells, xs, vs, period, -1.0, neighbourhoods[n_known:], series):
-                    n += period
+                new = inside(neighbourhoods, n, xo, vo) < 0 and (period == 0 or distance(xo, vo, xs, vs) > SAME_POINT)
+                period, xs, vs = found, xo, vo
+                if new:
+                    n = n_known
+                    if surround(cells, xs, vs, period, -1.0, neighbourhoods[n_known:], series):
+                        n += period
                     held = inside(neighbourhoods, n, x, v)
                 if held < 0 and gap <= RETURNED and distance(x, v, xs, vs) <= CAPTURED:
                     way[0], way[1], way[2], way[3] = done, impacts, low, high
@@ -184,14 +172,26 @@ def minimal_period(cells, xs, vs, period, m, series):
 
 @kernel
 def approached(cells, x, v, max_period, m, series):
-    """`find_return` for slow motions: the stable orbit must come nearer over twenty of its cycles."""
-    status, period, x, v, xs, vs = find_return(cells, x, v, max_period, NEAR, NEAR, m, series)
-    if period > 0:
+    """March until the motion returns to a stable orbit that it slowly approaches: (status, period, x, v, x*, v*).
+
+    The orbit lies within `NEAR`, and comes nearer over twenty of its cycles. The period is 0 where there is none within
+    `max_period` periods; (x*, v*) is then meaningless.
+    """
+    x0, v0 = x, v
+    for within in range(1, max_period + 1):
+        status, x, v = march(cells, x, v, 1, series)
+        if status != OK:
+            return status, 0, x, v, x, v
+        if distance(x, v, x0, v0) > NEAR:
+            continue
+        period, xs, vs = stable_orbit(cells, x, v, within, NEWTON_STEPS, MOST_TRACE, m, series)
         before = distance(x, v, xs, vs)
-        status, x, v = march(cells, x, v, 20 * period, series)
-        if status != OK or distance(x, v, xs, vs) > max(before, RETURNED):
-            period = 0
-    return status, period, x, v, xs, vs
+        if period > 0 and before <= NEAR:
+            status, x, v = march(cells, x, v, 20 * period, series)
+            if status != OK or distance(x, v, xs, vs) > max(before, RETURNED):
+                period = 0
+            return status, period, x, v, xs, vs
+    return OK, 0, x, v, x, v
 
 
 @allocating_kernel
@@ -220,6 +220,7 @@ def settle(cells, x, v, n_transient, max_period, n_exponent, most, known, neighb
         status, period, x, v, xs, vs = judge(cells, x, v, max_period, n_exponent, out, i, m, series)
     if status != OK:
         out.status[i] = GONE if status == ESCAPED else CAPPED
+        out.points[i], out.extremes[i] = np.nan, np.nan
         return
     if period > 0:
         out.status[i] = PERIODIC
@@ -227,31 +228,37 @@ def settle(cells, x, v, n_transient, max_period, n_exponent, most, known, neighb
         for k in range(4):
             out.monodromy[i, k // 2, k % 2] = m[k // 2, k % 2]
         xs, vs = smallest_point(cells, xs, vs, period, series)
-        x, v = xs, vs
         span = period * cells.period
         out.exponents[i, 0] = np.log(spectral_radius(m)) / span
         out.exponents[i, 1] = -2.0 * cells.damping_ratio - out.exponents[i, 0]
         out.exponents[i, 2] = 0.0
+        _status, _x, _v, low, high, _drive, _coast = extremes(cells, xs, vs, period, series)
+        out.extremes[i, 0], out.extremes[i, 1] = low, high
+    else:
+        xs, vs = out.points[i, 0, 0], out.points[i, 0, 1]
+    x, v = xs, vs
     for k in range(out.points.shape[1]):
         if period > 0 and k % period == 0:
             x, v = xs, vs
         out.points[i, k, 0], out.points[i, k, 1] = x, v
-        status, x, v = march(cells, x, v, 1, series)
-    n = period if period > 0 else n_exponent
-    x, v = out.points[i, 0, 0], out.points[i, 0, 1]
-    status, _x, _v, low, high, _drive, _coast = extremes(cells, x, v, n, series)
-    out.extremes[i, 0], out.extremes[i, 1] = low, high
+        _status, x, v = march(cells, x, v, 1, series)
     if out.measures.shape[1] > 0:
-        measure(cells, x, v, n, series, out.measures[i])
+        measure(cells, xs, vs, period if period > 0 else n_exponent, series, out.measures[i])
 
 
 @kernel
 def judge(cells, x, v, max_period, n_exponent, out, i, m, series):
-    """What a motion is that was not captured: (status, period, x, v, x*, v*), as of `find_return`."""
+    """What a motion is that was not captured: (status, period, x, v, x*, v*), as of `approached`.
+
+    Of one that does not return, row `i` of `out` gets the exponents and extremes over `n_exponent` periods, and where
+    these began.
+    """
     status, period, x, v, xs, vs = approached(cells, x, v, max_period, m, series)
     if period == 0 and status == OK:
-        status, x, v, largest, smallest, error = exponents(cells, x, v, n_exponent, EXPONENT_BLOCKS, series)
+        out.points[i, 0, 0], out.points[i, 0, 1] = x, v
+        status, x, v, largest, smallest, error, low, high = exponents(cells, x, v, n_exponent, EXPONENT_BLOCKS, series)
         out.exponents[i, 0], out.exponents[i, 1], out.exponents[i, 2] = largest, smallest, error
+        out.extremes[i, 0], out.extremes[i, 1] = low, high
         if status == OK and largest > RESOLVED * error:
             out.status[i] = APERIODIC
         elif status == OK:

@@ -6,7 +6,7 @@ has no jump: its matrix is the product of the linear pieces' own, and its determ
 
 import numpy as np
 
-from ._kernel import allocating_kernel, inlined_kernel, kernel
+from ._kernel import inlined_kernel, kernel
 from .cells import VV, VX, WIDTH, XV, XX
 from .closed_form import evaluate
 from .event_search import INSIDE, UNDECIDED
@@ -101,14 +101,17 @@ def march_tangent(cells, x, v, n_periods, m, series):
 
 
 @kernel
-def newton(cells, x, v, period, m, series, steps=NEWTON_STEPS):
-    """A fixed point of the `period`-fold map near (x, v): (converged, x, v, residual); `m` its monodromy."""
+def newton(cells, x, v, period, m, series, steps=NEWTON_STEPS, most_trace=np.inf):
+    """A fixed point of the `period`-fold map near (x, v): (converged, x, v, residual); `m` its monodromy.
+
+    The search ends where the trace of the monodromy exceeds `most_trace`; at a stable orbit it is below 2.
+    """
     residual = np.inf
     best_x, best_v = x, v
     for _ in range(steps):
         m[0, 0], m[0, 1], m[1, 0], m[1, 1] = 1.0, 0.0, 0.0, 1.0
         status, x1, v1 = march_tangent(cells, x, v, period, m, series)
-        if status != OK:
+        if status != OK or abs(m[0, 0] + m[1, 1]) > most_trace:
             return False, x, v, np.inf
         rx, rv = x1 - x, v1 - v
         size = max(abs(rx), abs(rv))
@@ -128,43 +131,3 @@ def newton(cells, x, v, period, m, series, steps=NEWTON_STEPS):
     status, _x, _v = march_tangent(cells, best_x, best_v, period, m, series)
     converged = status == OK and residual <= 1e3 * NEWTON_ROUNDING * max(1.0, abs(best_x))
     return converged, best_x, best_v, residual
-
-
-@kernel
-def stretch(cells, x, v, n_periods, q, series):
-    """March, turning the first column of `q` (2, 2) with the flow: (status, x, v, logarithm of its growth)."""
-    status, total = OK, 0.0
-    for _ in range(n_periods):
-        status, x, v = march_tangent(cells, x, v, 1, q, series)
-        if status != OK:
-            break
-        length = np.hypot(q[0, 0], q[1, 0])
-        q[0, 0], q[1, 0] = q[0, 0] / length, q[1, 0] / length
-        q[0, 1], q[1, 1] = -q[1, 0], q[0, 0]
-        total += np.log(length)
-    return status, x, v, total
-
-
-@allocating_kernel
-def exponents(cells, x, v, n_periods, blocks, series):
-    """Lyapunov exponents by the tangent map: (status, x, v, largest, smallest, standard error).
-
-    Per unit tau, the largest first. The smallest follows from Liouville's formula, the sum being -2 zeta; from
-    the matrices it would lose all digits where damping is strong. The error is that of the mean over
-    `blocks` equal parts of the span.
-    """
-    q = np.eye(2)
-    per_block = max(1, n_periods // blocks)
-    # One block first, uncounted, to turn the first direction into the most unstable one.
-    status, x, v, _total = stretch(cells, x, v, per_block, q, series)
-    mean, spread = 0.0, 0.0
-    for block in range(blocks):
-        status, x, v, total = stretch(cells, x, v, per_block, q, series)
-        if status != OK:
-            return status, x, v, np.nan, np.nan, np.nan
-        rate = total / (per_block * cells.period)
-        delta = rate - mean
-        mean += delta / (block + 1)
-        spread += delta * (rate - mean)
-    error = np.sqrt(spread / max(1, blocks - 1) / blocks)
-    return OK, x, v, mean, -2.0 * cells.damping_ratio - mean, error

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -106,7 +107,7 @@ def transient_periods(osc: Oscillator) -> int:
     811
     """
     rate = osc.damping_ratio * osc.period
-    return int(np.clip(np.ceil(20.0 / rate), 500, 20_000)) if rate > 0.0 else 500
+    return math.ceil(min(max(20.0 / rate, 500), 20_000)) if rate > 0.0 else 500
 
 
 def settle_lanes(
@@ -183,7 +184,7 @@ def lanes_of(oscillators: Sequence[Oscillator], starts: NDArray[np.float64], set
         ),
         np.array([(*o.stiffness.edges, 1.0) for o in oscillators]),
         np.array([o.stiffness.levels for o in oscillators]),
-        np.array([o.flow_parameters.harmonics for o in oscillators]),
+        np.array([o.harmonics for o in oscillators], dtype=float).reshape(len(oscillators), -1, 3),
         np.array(starts, dtype=float),
         np.array([transient_periods(o) if settings.n_transient is None else settings.n_transient for o in oscillators]),
     )

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from gearpair._checks import check_count
 from gearpair._flow.closed_form import TERMS
+from gearpair._flow.exponents import exponents
 from gearpair._flow.march import OK, march
-from gearpair._flow.tangent import exponents
 from gearpair.motion.trajectories import check_start, raise_unless_ok
 from gearpair.oscillator import Oscillator
 
@@ -56,7 +56,7 @@ def lyapunov_exponents(
     series = np.empty(TERMS)
     status, x, v = march(osc.cells, x, v, n_transient, series)
     if status == OK:
-        status, x, v, largest, smallest, _error = exponents(osc.cells, x, v, n_periods, 1, series)
+        status, x, v, largest, smallest, *_ = exponents(osc.cells, x, v, n_periods, 1, series)
     raise_unless_ok(status, n_transient + n_periods)
     return np.array([largest, smallest])
 
