@@ -106,6 +106,15 @@ def stable_orbit(cells, x, v, period, steps, most_trace, m, series):
 
 
 @kernel
+def beside(neighbourhoods, n, x, v):
+    """Whether (x, v) is near the centre of one of the first `n` neighbourhoods: that it returns there is no news."""
+    for i in range(n):
+        if distance(x, v, neighbourhoods[i, X], neighbourhoods[i, V]) <= PROMISING:
+            return True
+    return False
+
+
+@kernel
 def follow(cells, x, v, n_transient, max_period, n_known, neighbourhoods, way, m, series):
     """Follow a motion until it is captured: (status, owner, period, x, v, x*, v*).
 
@@ -129,7 +138,7 @@ def follow(cells, x, v, n_transient, max_period, n_known, neighbourhoods, way, m
         within += 1
         held = inside(neighbourhoods, n, x, v)
         gap = distance(x, v, x0, v0)
-        if held < 0 and gap <= closeness:
+        if held < 0 and gap <= closeness and (gap <= RETURNED or not beside(neighbourhoods, n, x, v)):
             steps, most_trace = (NEWTON_STEPS, np.inf) if gap <= RETURNED else (FEW_STEPS, MOST_TRACE)
             found, xo, vo = stable_orbit(cells, x, v, within, steps, most_trace, m, series)
             if found > 0 and inside(neighbourhoods, n_known, xo, vo) < 0:
