@@ -108,10 +108,10 @@ def stable_orbit(cells, x, v, period, steps, most_trace, m, series):
 @kernel
 def beside(neighbourhoods, n, x, v):
     """Whether (x, v) is near the centre of one of the first `n` neighbourhoods: that it returns there is no news."""
+    nearest = np.inf
     for i in range(n):
-        if distance(x, v, neighbourhoods[i, X], neighbourhoods[i, V]) <= PROMISING:
-            return True
-    return False
+        nearest = min(nearest, distance(x, v, neighbourhoods[i, X], neighbourhoods[i, V]))
+    return nearest <= PROMISING
 
 
 @kernel
