@@ -178,13 +178,14 @@ def stoppable(out: Settled, progress: bool, most: float) -> Iterator[Callable[[i
 
 def lanes_of(oscillators: Sequence[Oscillator], starts: NDArray[np.float64], settings: SettleSettings) -> Lanes:
     """The lanes of a batch; `starts` (n, 2) are copied."""
+    n, n_harmonics = len(oscillators), len(oscillators[0].harmonics) if oscillators else 0
     return Lanes(
         np.array(
             [(o.mean_force, o.error_amplitude, o.error_phase, o.damping_ratio, o.mesh_frequency) for o in oscillators]
         ),
         np.array([(*o.stiffness.edges, 1.0) for o in oscillators]),
         np.array([o.stiffness.levels for o in oscillators]),
-        np.array([o.harmonics for o in oscillators], dtype=float).reshape(len(oscillators), -1, 3),
+        np.array([o.harmonics for o in oscillators], dtype=float).reshape(n, n_harmonics, 3),
         np.array(starts, dtype=float),
         np.array([transient_periods(o) if settings.n_transient is None else settings.n_transient for o in oscillators]),
     )
