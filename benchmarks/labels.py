@@ -86,7 +86,7 @@ def compare(case: Case, n: int, seed: int = 0) -> Outcome:
     (numbers,), known = number_attractors([found])
     labels, first = numbers[places], known["first"]
     periodic = out.status == STATUSES.index(Status.PERIODIC)
-    ends = march_on(osc, starts)
+    ends = march_on(osc, starts, -out.exponents[periodic, 0].max(initial=-osc.damping_ratio))
     changed = int(np.sum(periodic & (np.abs(gaps(ends, labels, out.points[first], out.period[first])) > ON_ORBIT)))
     cycles = [k for k, row in enumerate(first) if periodic[row]]
     on_any = np.zeros(n, bool)
@@ -98,9 +98,9 @@ def compare(case: Case, n: int, seed: int = 0) -> Outcome:
     return Outcome(case, counts, len(first), float(np.mean(out.attractor >= 0)), settling, changed, missed)
 
 
-def march_on(osc: gp.Oscillator, starts: NDArray[np.float64]) -> NDArray[np.float64]:
-    """States (n, 2) after so many mesh periods that a transient has fallen by exp(-60) at best."""
-    n = int(np.clip(60.0 / (osc.damping_ratio * osc.period), 2000, 30_000))
+def march_on(osc: gp.Oscillator, starts: NDArray[np.float64], slowest: float) -> NDArray[np.float64]:
+    """States (n, 2) after so many mesh periods that a transient of the `slowest` rate has fallen by exp(-30)."""
+    n = int(np.clip(30.0 / (slowest * osc.period), 2000, 30_000))
     return np.stack(gp.stroboscopic_map(osc, starts[:, 0], starts[:, 1], n), axis=1)
 
 
