@@ -11,6 +11,7 @@ from gearpair.study.finishing import finish_site, mend
 from gearpair.study.pdf import one_document
 
 THEBE = '<script>const THEBE_JS_URL = "https://example.org/thebe.js"; const other = 1</script>'
+X = r'<span class="math notranslate nohighlight">\(X\)</span>'
 TOGGLE = "<script>var togglebuttonSelector = '.toggle';</script>"
 
 
@@ -29,6 +30,15 @@ TOGGLE = "<script>var togglebuttonSelector = '.toggle';</script>"
         ('<i id="search-input"><b id="search-input">', '<i id="search-input"><b id="search-field">'),
         ("<i>Show code cell source</i><b>Hide code cell outputs</b>", "<i>Show the code</i><b>Hide the result</b>"),
         ('<section id="solution-content">a</section>', "<section>a</section>"),
+        (
+            f"<p>of {X}, and {X} (of {X}).</p>",
+            f'<p>of <span class="whole">{X},</span> and {X} (of <span class="whole">{X}).</span></p>',
+        ),
+        (f"<p>({X} large)</p>", f'<p><span class="whole">({X}</span> large)</p>'),
+        (
+            '<span class="pre">-p</span> <span class="pre">a-b</span>',
+            '<span class="pre option">-p</span> <span class="pre">a-b</span>',
+        ),
         ("<p>nothing to mend</p>", "<p>nothing to mend</p>"),
     ],
 )
