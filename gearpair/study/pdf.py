@@ -18,7 +18,7 @@ from gearpair.study.book import Book
 from gearpair.study.browser import chromium, serve
 from gearpair.study.errors import StudyError
 
-LEFT_OUT = "a.headerlink, script, style, button, nav, .gp-pairs, .toggle-hidden, .toctree-wrapper, .sd-summary-state-marker"
+LEFT_OUT = "a.headerlink, script, style, button, nav, .gp-pairs, .toggle-hidden, .toctree-wrapper, svg.sd-octicon"
 EXPLORER = ".gp-explorer"  # moves, so paper gets a picture of it
 SHOWN = (
     "document.getElementById('explorer').explorer?.shown && !document.getElementById('explorer').explorer.diagram.busy"
