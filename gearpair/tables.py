@@ -162,13 +162,14 @@ def bifurcation_table(branches: Iterable[Branch], *, digits: int = 5) -> Table:
     >>> from gearpair import continue_orbit, periodic_orbit
     >>> orbit = periodic_orbit(Oscillator(), 0.34629, -0.25625, 2)
     >>> bifurcation_table([continue_orbit(orbit, "mesh_frequency", 0.7, 0.78)])
-    kind  mesh_frequency  period  contacts  impact state
-    ----------------------------------------------------
-    flip         0.76601       2  2 + 0     single-sided
+    kind  Omega_h  period  contacts  impact state
+    ---------------------------------------------
+    flip  0.76601       2  2 + 0     single-sided
     """
     found = sorted((b for branch in branches for b in branch.bifurcations), key=lambda b: (b.value, b.kind))
     rows = [[b.kind, f"{b.value:.{digits}f}", b.period, _contacts(b), IMPACT_NAMES[b.impact_state]] for b in found]
-    return Table(["kind", found[0].parameter if found else "value", "period", "contacts", "impact state"], rows)
+    value = symbol(found[0].parameter) if found else "value"
+    return Table(["kind", value, "period", "contacts", "impact state"], rows)
 
 
 def _contacts(bifurcation: Bifurcation) -> str:

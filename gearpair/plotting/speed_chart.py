@@ -236,7 +236,7 @@ def tornado(
         for end, colour in ((0, low_colour), (1, high_colour)):
             lane = place + (0.5 - end) * LANE  # each end has its own, for both may lie on one side of the base
             ax.barh(lane, values[k, end] - base, left=base, height=LANE, color=colour, zorder=2)
-            beyond = values[k, end] >= base
+            beyond = values[k, end] - base > -1e-9 * base  # or the same, up to rounding
             ax.annotate(
                 f"{found.value.values[k, end]:.3g}", (values[k, end], lane), (3 if beyond else -3, 0),
                 textcoords="offset points", fontsize=7, va="center_baseline", ha="left" if beyond else "right",
