@@ -27,23 +27,14 @@ from gearpair.oscillator import Oscillator
 if TYPE_CHECKING:
     import xarray as xr
 
-# Plain names of symbols, as they are set in HTML.
-SYMBOLS = {
-    "Omega_h": "Ω<sub>h</sub>",
-    "F_m'": "F<sub>m</sub>′",
-    "F_ah": "F<sub>ah</sub>",
-    "T_h": "T<sub>h</sub>",
-    "X_min": "X<sub>min</sub>",
-    "X_max": "X<sub>max</sub>",
-    "phi_h": "φ<sub>h</sub>",
-    "epsilon": "ε",
-    "eps": "ε",
-    "zeta": "ζ",
-    "pi": "π",
-    ">=": "≥",
-    "<=": "≤",
-}
+# Plain names of symbols, and how they are set in HTML.
+GREEK = dict(
+    zip(("Omega", "omega", "theta", "zeta", "phi", "psi", "eps", "epsilon", "tau", "pi"), "Ωωθζφψεετπ", strict=True)
+)
+SYMBOLS = {**GREEK, ">=": "≥", "<=": "≤", "-+": "∓"}
 SYMBOL = re.compile("|".join(rf"(?<!\w){re.escape(escape(name))}(?!\w)" for name in SYMBOLS))
+INDEX = re.compile(r"(?<!\w)((?:Omega|omega|phi|[FTXbcekmr])(?=_)|theta(?=\d))_?(min|max|ah|b1|b2|[aehmn12])(?!\w)")
+PRIMES = re.compile(r"(?:(?<=\b[Xxe])|(?<=F<sub>m</sub>))(?:&#x27;)+(?!\w)")
 
 
 @dataclass(frozen=True)
@@ -114,7 +105,9 @@ class Table:
 
 def _html(cell: str) -> str:
     """A cell with its symbols set, and its intervals kept on one line."""
-    text = SYMBOL.sub(lambda match: SYMBOLS[unescape(match.group())], escape(cell))
+    text = INDEX.sub(r"\1<sub>\2</sub>", escape(cell))
+    text = SYMBOL.sub(lambda match: SYMBOLS[unescape(match.group())], text)
+    text = PRIMES.sub(lambda match: "′" * unescape(match.group()).count("'"), text).replace("^2", "²")
     return re.sub(r"(?<=\d)–(?=\d)", "&#8288;–&#8288;", text)
 
 
@@ -169,13 +162,14 @@ def bifurcation_table(branches: Iterable[Branch], *, digits: int = 5) -> Table:
     >>> from gearpair import continue_orbit, periodic_orbit
     >>> orbit = periodic_orbit(Oscillator(), 0.34629, -0.25625, 2)
     >>> bifurcation_table([continue_orbit(orbit, "mesh_frequency", 0.7, 0.78)])
-    kind  mesh_frequency  period  contacts  impact state
-    ----------------------------------------------------
-    flip         0.76601       2  2 + 0     single-sided
+    kind  Omega_h  period  contacts  impact state
+    ---------------------------------------------
+    flip  0.76601       2  2 + 0     single-sided
     """
     found = sorted((b for branch in branches for b in branch.bifurcations), key=lambda b: (b.value, b.kind))
     rows = [[b.kind, f"{b.value:.{digits}f}", b.period, _contacts(b), IMPACT_NAMES[b.impact_state]] for b in found]
-    return Table(["kind", found[0].parameter if found else "value", "period", "contacts", "impact state"], rows)
+    value = symbol(found[0].parameter) if found else "value"
+    return Table(["kind", value, "period", "contacts", "impact state"], rows)
 
 
 def _contacts(bifurcation: Bifurcation) -> str:

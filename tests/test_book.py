@@ -1,14 +1,19 @@
 """Building the book: what is shown is what ran, and a failure leaves the last good book in place."""
 
 import importlib.util
+import re
 from pathlib import Path
+from types import SimpleNamespace
 
+import docutils.nodes
+import docutils.utils
 import nbformat
 import papermill
 import pytest
 from bs4 import BeautifulSoup
 
-from gearpair.article import published
+import gearpair as gp
+from gearpair.article import Verdict, published, verdict_table
 from gearpair.study.book import Book
 from gearpair.study.chapters import Parameter
 from gearpair.study.cli import main
@@ -17,6 +22,7 @@ from gearpair.study.variants import variant_page
 from tests.conftest import MEAN, write_notebook
 
 ROOT = Path(__file__).parents[1]
+BOOK = Book.find(ROOT)
 LAST_GOOD = "the last good book"
 
 
@@ -161,14 +167,48 @@ def test_a_variants_page_tells_what_was_changed_and_keeps_its_labels_apart(small
     assert nbformat.writes(notebook) == before  # another page is made from the same notebook
 
 
-def test_every_item_of_the_article_leads_to_one_section():
-    """The verdicts' links; that their sections are there is a gate of the built site."""
-    path = ROOT / "book" / "_ext" / "executed.py"
-    spec = importlib.util.spec_from_file_location("executed", path)
-    executed = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(executed)
-    linked = [item for items in executed.EVIDENCE.values() for item in items.split()]
+@pytest.fixture(scope="module")
+def verdict_links():
+    """The module of the book that links the verdicts."""
+    spec = importlib.util.spec_from_file_location("executed", ROOT / "book" / "_ext" / "executed.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_every_item_of_the_article_leads_to_one_section_that_is_there(verdict_links):
+    linked = [item for items in verdict_links.EVIDENCE.values() for item in items.split()]
     assert sorted(linked) == sorted(statement.item for statement in published.STATEMENTS)
-    for section in executed.EVIDENCE:
-        page = section.partition("#")[0].replace("chapters/", "../notebooks/")
-        assert any((ROOT / "book" / f"{page}{suffix}").is_file() for suffix in (".md", ".ipynb"))
+    for section in verdict_links.EVIDENCE:
+        page, _, anchor = section.partition("#")
+        if page.startswith("chapters/"):
+            cells = nbformat.read(BOOK.chapter(page.removeprefix("chapters/")).path, as_version=4).cells
+            text = "\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
+        else:
+            text = (ROOT / "book" / f"{page}.md").read_text(encoding="utf-8")
+        headings = re.findall(r"^#+ (.*)$", text.replace("'", ""), re.MULTILINE)  # as curly apostrophes are dropped
+        assert anchor in map(docutils.nodes.make_id, headings), section
+
+
+def test_in_its_own_chapter_every_verdict_leads_to_its_evidence(verdict_links):
+    verdicts = [
+        Verdict(each.item, "no", "no", "refuted", "a < b")
+        if each.item == "F1"
+        else Verdict(each.item, "", "", "advice")
+        for each in published.STATEMENTS
+    ]
+    tables = [verdict_table(verdicts)._repr_html_(), gp.Table(["item", "published"], [["F1", "0.7"]])._repr_html_()]
+    page = docutils.utils.new_document("")
+    page += [docutils.nodes.raw("", table, format="html") for table in tables]
+    app = SimpleNamespace(builder=SimpleNamespace(get_relative_uri=lambda start, page: f"from {start} to {page}"))
+    verdict_links.link_verdicts(app, page, "book/conclusions")
+    assert [node.astext() for node in page.children] == tables
+    verdict_links.link_verdicts(app, page, "book/chapters/reproduction")
+    linked, other = (node.astext() for node in page.children)
+    assert other == tables[1]
+    assert linked.count("<a ") == linked.count("</a></td></tr>") == len(verdicts)
+    link = (
+        'href="from book/chapters/reproduction to book/chapters/reproduction#which-motions-exist-at-all">a &lt; b</a>'
+    )
+    assert link in linked
+    assert re.sub("<a [^>]*>|</a>", "", linked).replace("nothing; where it is used", "–") == tables[0]

@@ -11,6 +11,7 @@ from gearpair.study.finishing import finish_site, mend
 from gearpair.study.pdf import one_document
 
 THEBE = '<script>const THEBE_JS_URL = "https://example.org/thebe.js"; const other = 1</script>'
+X = r'<span class="math notranslate nohighlight">\(X\)</span>'
 TOGGLE = "<script>var togglebuttonSelector = '.toggle';</script>"
 
 
@@ -29,6 +30,15 @@ TOGGLE = "<script>var togglebuttonSelector = '.toggle';</script>"
         ('<i id="search-input"><b id="search-input">', '<i id="search-input"><b id="search-field">'),
         ("<i>Show code cell source</i><b>Hide code cell outputs</b>", "<i>Show the code</i><b>Hide the result</b>"),
         ('<section id="solution-content">a</section>', "<section>a</section>"),
+        (
+            f"<p>of {X}, and {X} (of {X}).</p>",
+            f'<p>of <span class="whole">{X},</span> and {X} (of <span class="whole">{X}).</span></p>',
+        ),
+        (f"<p>({X} large)</p>", f'<p><span class="whole">({X}</span> large)</p>'),
+        (
+            '<span class="pre">-p</span> <span class="pre">a-b</span>',
+            '<span class="pre option">-p</span> <span class="pre">a-b</span>',
+        ),
         ("<p>nothing to mend</p>", "<p>nothing to mend</p>"),
     ],
 )
@@ -66,6 +76,7 @@ def test_the_pages_become_one_document_whose_links_stay_inside(small_book):
     first += '<a href="chapters/small.html#x=1&amp;v=2">w</a>'
     folded = "<details><summary>Show the code</summary>hidden</details>"
     folded += "<details><summary>Show the result</summary>kept</details>"
+    folded += '<details><summary class="sd-summary-title">A title</summary>a table</details>'
     page = "<html><head></head><body><nav>menu</nav><article><h1>{}</h1>{}</article></body></html>"
     (html / "introduction.html").write_text(page.format("First", first))
     second = f'<p id="there"><img src="../../_images/a.png"></p>{folded}'
@@ -80,10 +91,26 @@ def test_the_pages_become_one_document_whose_links_stay_inside(small_book):
         'src="_images/a.png"',
         '<a href="#book-chapters-small">The second</a><span>7</span>',
         '<img src="data:,still"/>',
-        "kept",
+        "<div>kept</div>",
+        '<div><h4 class="sd-summary-title">A title</h4>a table</div>',
     ):
         assert piece in text
-    assert "hidden" not in text and "menu" not in text and "canvas" not in text
+    assert not any(word in text for word in ("hidden", "menu", "canvas", "<details", "<summary"))
+
+
+@pytest.mark.parametrize(("rows", "left", "told"), [(100, 100, ""), (176, 51, "… 126 more rows, on the site …")])
+def test_of_a_table_of_many_pages_paper_gets_the_beginning_and_the_end(small_book, rows, left, told):
+    html = small_book / "_build" / "html" / "book"
+    (html / "chapters").mkdir(parents=True)
+    body = "".join(f"<tr><td>place {i}</td><td>x</td></tr>" for i in range(1, rows + 1))
+    table = f"<table><thead><tr><th>place</th><th>x</th></tr></thead><tbody>{body}</tbody></table>"
+    page = "<html><head></head><body><article><h1>First</h1>{}</article></body></html>"
+    (html / "introduction.html").write_text(page.format(table))
+    (html / "chapters" / "small.html").write_text(page.format(""))
+    text = one_document(Book(small_book), {})
+    assert text.count("<tr><td") == left
+    assert "<td>place 1</td>" in text and f"<td>place {rows}</td>" in text
+    assert f'<td colspan="2">{told}</td>' in text if told else "more rows" not in text
 
 
 def test_a_missing_browser_is_told_in_a_sentence(monkeypatch, tmp_path):

@@ -66,6 +66,28 @@ def test_bifurcation_diagram_draws_each_cycle_once_in_its_colour(result):
     assert ax.texts[0].get_text() == "rising"
 
 
+def test_motions_without_bound_leave_the_others_their_room(result):
+    """A period 2 that swings far, and one that has escaped: a triangle at the rim each, and the axis of the rest."""
+    alone = plotting.bifurcation_diagram(result.isel(mesh_frequency=slice(2, None)))
+    wild = result.copy(deep=True)
+    wild.x[0] *= 1000.0
+    wild.x[1] = 5.0  # where it happened to be when it was given up
+    wild.status[1], wild.period[1] = "escaped", 0
+    ax = plotting.bifurcation_diagram(wild)
+    assert ax.get_ylim() == alone.get_ylim()
+    marked = {line.get_label(): line for line in ax.lines if line.get_marker() == "^"}
+    assert {name: line.get_xdata().tolist() for name, line in marked.items()} == {
+        "period 2, not drawn": [0.7],
+        "escaped, not drawn": [0.72],
+    }
+    ax.figure.canvas.draw()
+    for line in marked.values():
+        ((_, height),) = line.get_transform().transform(line.get_xydata())
+        assert height == pytest.approx(ax.bbox.y1)
+    wider = plotting.bifurcation_diagram(wild, reach=1e4)
+    assert wider.get_ylim()[1] > 100.0 and "period 2, not drawn" not in labelled(wider)
+
+
 def test_extremes_are_the_result_s(result):
     ax = plotting.extremes(result)
     drawn = np.concatenate([line.get_ydata() for line in ax.lines if line.get_marker() == "."])

@@ -64,6 +64,19 @@ def test_a_tornado_has_the_strongest_change_on_top():
     assert [label.get_text() for label in other.get_yticklabels()] == ["backlash", "damping ratio"]
 
 
+def test_a_tornado_s_bars_and_numbers_stay_apart_where_both_ends_lie_on_one_side():
+    found = design.sensitivity(DRIVE, SPEEDS, {"damping_ratio": (0.06, 0.1)})
+    assert (found.dynamic_factor < found.base_dynamic_factor).all()
+    ax = plotting.tornado(found)
+    low, high = sorted(ax.patches, key=lambda bar: -bar.get_y())
+    assert low.get_y() == pytest.approx(high.get_y() + high.get_height())
+    ax.figure.canvas.draw()
+    boxes = [text.get_window_extent() for text in ax.texts]
+    assert [text.get_text() for text in ax.texts] == ["0.06", "0.1"]
+    assert not boxes[0].overlaps(boxes[1])
+    assert not any(box.overlaps(bar.get_window_extent()) for box in boxes for bar in ax.patches)
+
+
 def test_rattle_begins_at_the_line():
     found = design.idle_rattle(
         DRIVE, np.linspace(300.0, 1500.0, 21), order=2.0, pinion_swing_deg=0.05, drag_torque_nm=0.4

@@ -226,5 +226,16 @@ def test_html_sets_symbols_and_keeps_intervals_together():
     assert "X<sub>min</sub> ≥ -1, ε = 1.68, F<sub>m</sub>′ small, zetas, pie" in html
 
 
+def test_html_sets_the_article_s_equation():
+    rows = [[published.statement(item).text] for item in ("M4", "M6", "K1")]
+    html = gp.Table(["item"], [*rows, ["sin, Omega^2, mean"], ["none_drive, x_min"]])._repr_html_()
+    assert "m<sub>e</sub> x′′ + c<sub>h</sub> x′ + k<sub>h</sub>(t) f(x) = F<sub>m</sub> - m<sub>e</sub> e′′" in html
+    assert (
+        "X′′ + 2 ζ X′ + k f(X) = F<sub>m</sub>′ + F<sub>ah</sub> Ω<sub>h</sub>² sin(Ω<sub>h</sub> τ + φ<sub>h</sub>)"
+        in html
+    )
+    assert "the mesh&#x27;s is" in html and "sin, Ω², mean" in html and "none_drive, x_min" in html
+
+
 def test_a_table_without_rows_keeps_its_headings():
     assert repr(gp.Table(["a", "b"], [])).splitlines()[0] == "a  b"

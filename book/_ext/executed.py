@@ -1,13 +1,17 @@
 """What pages take from the executed chapters, so that it stays true when a chapter is run again.
 
 ``{thumbnail} impacts fig-basins`` shows a figure of a chapter in small; ``{claims} F D`` gives the article's items with
-their verdicts, as the chapter `reproduction` found them, for the letters named, each with a link to its evidence.
+their verdicts, as the chapter `reproduction` found them, for the letters named, each with a link to its evidence. The
+chapter's own table of verdicts is given the same links.
 """
 
 from __future__ import annotations
 
 import base64
 import io
+import re
+from collections.abc import Callable
+from functools import partial
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -15,11 +19,13 @@ import nbformat
 from docutils import nodes
 from PIL import Image
 from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
 from sphinx.util.docutils import SphinxDirective
 
 CHAPTERS = "book/chapters"
 THUMBNAILS = f"{CHAPTERS}/thumbnails"  # beside the executed chapters: generated, and not kept
 WIDTH = 720  # pixels: sharp on a screen of twice the density
+ROW = re.compile(r"(<tr><td[^>]*>(\w+)</td>.*<td[^>]*>)(.*)(</td></tr>)")  # a line of a table: first and last cell
 VERDICTS = ("reproduction", "verdict", "decided by")  # the chapter, and two columns of its table
 EVIDENCE = {  # the section, below book/, where the items are tested or used
     "model#two-rotors": "M1 M2 M3",
@@ -134,28 +140,43 @@ class Claims(Executed):
         raise self.error(f"chapter {chapter!r} has no table of verdicts")
 
     def _table(self, rows: list[list[str]], word: int, by: int) -> nodes.Node:
+        address = partial(self.env.app.builder.get_relative_uri, self.env.docname)
         marks = "".join(
             f'<tr><td>{row[0]}</td><td>{row[1]}</td><td class="verdict {row[word]}">{row[word]}</td>'
-            f"<td>{self._evidence(row[0], row[by])}</td></tr>\n"
+            f"<td>{evidence(row[0], row[by], address)}</td></tr>\n"
             for row in rows
         )
         head = "<tr><th>item</th><th>the article</th><th>verdict</th><th>decided by</th></tr>"
         table = f'<table class="table claims"><thead>{head}</thead>\n<tbody>\n{marks}</tbody></table>'
         return nodes.raw("", table, format="html")
 
-    def _evidence(self, item: str, by: str) -> str:
-        """A link to where the item is tested, or used where nothing decides it."""
-        for section, items in EVIDENCE.items():
-            if item in items.split():
-                page, _, anchor = section.partition("#")
-                address = self.env.app.builder.get_relative_uri(self.env.docname, f"book/{page}")
-                text = "nothing; where it is used" if by == "–" else by
-                return f'<a class="reference internal" href="{address}#{anchor}">{text}</a>'
-        raise self.error(f"item {item} has no section in EVIDENCE")
+
+def evidence(item: str, by: str, address: Callable[[str], str]) -> str:
+    """A link to where an item is tested, or used where nothing decides it; `address` gives that of a page."""
+    for section, items in EVIDENCE.items():
+        if item in items.split():
+            page, _, anchor = section.partition("#")
+            text = "nothing; where it is used" if by == "–" else by
+            return f'<a class="reference internal" href="{address(f"book/{page}")}#{anchor}">{text}</a>'
+    raise ExtensionError(f"item {item} has no section in EVIDENCE")
+
+
+def link_verdicts(app: Sphinx, doctree: nodes.document, docname: str) -> None:
+    """In the chapter that finds the verdicts, too, what decided an item leads there."""
+    chapter, word, by = VERDICTS
+    if docname != f"{CHAPTERS}/{chapter}":
+        return
+    address = partial(app.builder.get_relative_uri, docname)
+    for node in doctree.findall(nodes.raw):
+        rows = Rows(node.astext()).rows
+        if rows and word in rows[0] and rows[0][-1] == by:
+            linked = ROW.sub(lambda row: row[1] + evidence(row[2], row[3], address) + row[4], node.astext())
+            node.children = [nodes.Text(linked)]
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
     """Register the directives."""
     app.add_directive("thumbnail", Thumbnail)
     app.add_directive("claims", Claims)
+    app.connect("doctree-resolved", link_verdicts)
     return {"parallel_read_safe": True}

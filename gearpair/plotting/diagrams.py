@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 from gearpair.article.published import COMPLEX, Boundary, Range
 from gearpair.motion.names import CHAOS, Motion, motions_of
 from gearpair.motion.ranges import MotionRange, motion_ranges, swept_parameter
+from gearpair.motion.settling import Status
 from gearpair.plotting.style import (
     BACKLASH,
     BOUNDARY,
@@ -24,12 +25,22 @@ from gearpair.plotting.style import (
 )
 
 LETTER = 0.0115  # share of the axis that a letter of a bar's name takes
+REACH = 10.0  # |X| where a diagram ends
 
 
 def bifurcation_diagram(
-    sweep: xr.Dataset, ax: Axes | None = None, *, title: str = "", legend: bool = True, size: float = 1.1
+    sweep: xr.Dataset,
+    ax: Axes | None = None,
+    *,
+    title: str = "",
+    legend: bool = True,
+    size: float = 1.1,
+    reach: float = REACH,
 ) -> Axes:
     """Section points of X at each value of a sweep, coloured by the motion's period.
+
+    A motion that is larger than `reach`, or that has escaped, would leave the others no room: it is not drawn, and a
+    triangle of its colour at the upper rim says where it is.
 
     Parameters
     ----------
@@ -42,11 +53,13 @@ def bifurcation_diagram(
         Name the colours above the axes.
     size : float
         Diameter of a dot in points; those of chaotic motions are smaller.
+    reach : float
+        The largest ``|X|`` that is drawn.
 
     Returns
     -------
     Axes
-        With one line, labelled with its name, for each kind of motion.
+        With one line, labelled with its name, for each kind of motion, and one of triangles for those beyond `reach`.
 
     Examples
     --------
@@ -62,14 +75,23 @@ def bifurcation_diagram(
     values = sweep[parameter].values
     for name in sorted(set(names.tolist()), key=lambda name: -int(np.sum(names == name))):
         points = _section_points(sweep, names == name)
-        where = np.repeat(values[names == name], points.shape[1])
         chosen = motions[names == name]
+        escaped = np.array([motion.status == Status.ESCAPED for motion in chosen])
+        beyond = escaped | np.any(np.abs(points) > reach, axis=1)
+        points[beyond] = np.nan
+        where = np.repeat(values[names == name], points.shape[1])
         many = not chosen[0].period
         ax.plot(
             where, points.ravel(), linestyle="", marker=".", markeredgewidth=0, rasterized=True, label=name,
             markersize=0.6 * size if many else 1.6 * size, alpha=0.5 if many else 1.0,
             color=motion_colour(chosen[0]),
         )  # fmt: skip
+        if beyond.any():
+            ax.plot(
+                values[names == name][beyond], np.ones(beyond.sum()), transform=ax.get_xaxis_transform(), linestyle="",
+                marker="^", markersize=3.5, markeredgewidth=0.4, markeredgecolor="#777777", clip_on=False,
+                markerfacecolor=motion_colour(chosen[0]), label=f"{name}, not drawn",
+            )  # fmt: skip
     ax.set(xlabel=LABELS[parameter], ylabel=LABELS["section"], xlim=(values.min(), values.max()))
     ax.annotate(title, (0.0, 1.0), xytext=(6, -4), xycoords="axes fraction", textcoords="offset points", va="top")
     if legend:

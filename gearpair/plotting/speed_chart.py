@@ -19,6 +19,7 @@ STATE_INK: Mapping[str, str] = {"none_drive": "#1F3A5F", "single_drive": "#D55E0
 OTHER_INK = "#8C8577"
 GREY = "#9A9A9A"
 LEAP = 0.25  # change from one speed to the next, of the largest factor, that is drawn as a jump
+LANE = 0.36  # height of a bar of a tornado, whose rows are 1 apart
 STRIP = 0.07  # height of a run's strip of impact states, in shares of the axes
 CHANGES: Mapping[str, str] = {
     "pinion_torque_nm": "torque",
@@ -202,7 +203,7 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]
 def tornado(
     found: xr.Dataset, outcome: str = "dynamic_factor", ax: Axes | None = None, *, sort_by: str | None = None
 ) -> Axes:
-    """What each change does to the worst of the speed range: one bar a change, the strongest on top.
+    """What each change does to the worst of the speed range: a bar for each of its two ends, the strongest on top.
 
     Parameters
     ----------
@@ -233,11 +234,12 @@ def tornado(
     low_colour, high_colour = "#56B4E9", "#E69F00"
     for place, k in enumerate(order):
         for end, colour in ((0, low_colour), (1, high_colour)):
-            ax.barh(place, values[k, end] - base, left=base, height=0.62, color=colour, zorder=2)
-            beyond = values[k, end] >= base
+            lane = place + (0.5 - end) * LANE  # each end has its own, for both may lie on one side of the base
+            ax.barh(lane, values[k, end] - base, left=base, height=LANE, color=colour, zorder=2)
+            beyond = values[k, end] - base > -1e-9 * base  # or the same, up to rounding
             ax.annotate(
-                f"{found.value.values[k, end]:.3g}", (values[k, end], place), (3 if beyond else -3, 5 - 10 * end),
-                textcoords="offset points", fontsize=7, va="center", ha="left" if beyond else "right",
+                f"{found.value.values[k, end]:.3g}", (values[k, end], lane), (3 if beyond else -3, 0),
+                textcoords="offset points", fontsize=7, va="center_baseline", ha="left" if beyond else "right",
             )  # fmt: skip
     ax.axvline(base, color="#333333", linewidth=0.9, zorder=3)
     names = [str(found.change.values[k]) for k in order]

@@ -40,6 +40,13 @@ MENDS: tuple[tuple[str, str, str], ...] = (
     (r'(id="search-input".*)id="search-input"', r'\1id="search-field"', "the page of the search has the field twice"),
     (r"(Show|Hide) code cell source", r"\1 the code", "said some thirty times a chapter, it is said in plain words"),
     (r"(Show|Hide) code cell outputs?", r"\1 the result", "the same"),
+    (
+        r'(?<!class="whole">)(?<=[\s>])(?=[^\s<>]|<span class="math[^>]*>[^<]*</span>[^\s<])'
+        r'([^\s<>]*<span class="math[^>]*>[^<]*</span>[^\s<]*)',
+        r'<span class="whole">\1</span>',
+        "a formula in a line could be parted from its comma",
+    ),
+    (r'<span class="pre">(?=--?[\w.=-]{1,28}</span>)', '<span class="pre option">', "broken after its hyphen"),
     (r'\s+autocorrect="off"', "", "not yet known to HTML checkers, and nothing is corrected in a search"),
 )
 _COMPILED = tuple((re.compile(pattern, re.DOTALL), new) for pattern, new, _ in MENDS)

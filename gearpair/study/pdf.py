@@ -18,7 +18,7 @@ from gearpair.study.book import Book
 from gearpair.study.browser import chromium, serve
 from gearpair.study.errors import StudyError
 
-LEFT_OUT = "a.headerlink, script, style, button, .gp-pairs, .toggle-hidden, nav"
+LEFT_OUT = "a.headerlink, script, style, button, nav, .gp-pairs, .toggle-hidden, .toctree-wrapper, svg.sd-octicon"
 EXPLORER = ".gp-explorer"  # moves, so paper gets a picture of it
 SHOWN = (
     "document.getElementById('explorer').explorer?.shown && !document.getElementById('explorer').explorer.diagram.busy"
@@ -27,14 +27,16 @@ STILL = (
     '<figure><img src="{src}" alt="The explorer at the baseline, with the motion and its bifurcation diagram">'
     "<figcaption>The explorer at the baseline. On the screen it answers to sliders and clicks.</figcaption></figure>"
 )
+LONGEST, BEGINNING, END = 100, 40, 10  # rows: beyond the first number paper gets the beginning and the end of a table
 MARGIN = {"top": "18mm", "bottom": "18mm", "left": "18mm", "right": "18mm"}
 FOOTER = '<div style="font-size: 8px; width: 100%; text-align: center"><span class="pageNumber"></span></div>'
 STYLE = """
 html { font-size: 13px; }
 body { background: #fff; color: #000; display: block; }
-article { break-before: page; }
+article { break-before: page; padding-bottom: 0 !important; }
 h1, h2, h3, h4, figcaption, summary { break-after: avoid; }
 figure, tr, .sd-card, .cell_output img, mjx-container { break-inside: avoid; }
+.sd-dropdown { break-inside: auto; }
 pre { white-space: pre-wrap; overflow-wrap: anywhere; }
 img { max-height: 17cm; }
 table { font-size: 0.85em; width: 100%; }
@@ -147,9 +149,14 @@ def _article(site: Path, name: str, still: str) -> Tag:
         assert folded is not None
         if "the code" in summary.text:  # code that the page hides; folded output is shown
             folded.decompose()
+            continue
+        folded.name = "div"  # a browser would put a word of its own in place of a summary
+        if "sd-summary-title" in summary.get_attribute_list("class"):
+            summary.name = "h4"  # the title of what unfolds
         else:
-            folded["open"] = ""
-            summary.decompose()
+            summary.decompose()  # no more than a button
+    for table in article.select("table"):
+        _shorten(table)
     for tag in article.find_all(True):
         if tag.get("id"):
             tag["id"] = f"{_slug(name)}--{tag['id']}"
@@ -159,6 +166,18 @@ def _article(site: Path, name: str, still: str) -> Tag:
             tag["src"] = _from_root(name, str(tag["src"]))
     article["id"] = _slug(name)
     return article
+
+
+def _shorten(table: Tag) -> None:
+    """Leave out the middle of a table that would take many pages, and say so."""
+    rows = table.select("tbody > tr")
+    if len(rows) <= LONGEST:
+        return
+    middle = rows[BEGINNING:-END]
+    told = f'<tr><td colspan="{len(rows[0].select("td"))}">… {len(middle)} more rows, on the site …</td></tr>'
+    middle[0].insert_before(BeautifulSoup(told, "html.parser"))
+    for row in middle:
+        row.decompose()
 
 
 def _title(article: Tag) -> str:

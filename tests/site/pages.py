@@ -12,8 +12,9 @@ from importlib.resources import files
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-# A role or directive that nobody resolved, as it would stand in the reader's text.
-UNRESOLVED = re.compile(r"\{[a-z]+(:[a-z]+)*\}`|^:::|\{\{|%s\b", re.MULTILINE)
+# A role or directive that nobody resolved, as it would stand in the reader's text; and a reference to an equation that
+# stands in a pair of parentheses beside its own.
+UNRESOLVED = re.compile(r"\{[a-z]+(:[a-z]+)*\}`|^:::|\{\{|%s\b|\(\(\d+\)\)", re.MULTILINE)
 CODE = ("pre", "code", "script", "style")
 
 

@@ -45,6 +45,7 @@ def test_a_good_page_passes_every_gate(make_site, browser):
         ("poor_alts", '<img src="data:," alt="figure">', "data:,: 'figure'"),
         ("poor_alts", '<img src="data:,">', "data:,: None"),
         ("unresolved", "<p>see {numref}`fig-wave`</p>", "{numref}`"),
+        ("unresolved", '<p>it is (<a href="#top-of-page">(17)</a>)</p>', "((17))"),
     ],
 )
 def test_a_gate_without_a_browser_closes(make_site, gate, body, found):
