@@ -3,6 +3,8 @@
 import json
 import os
 import re
+import shutil
+import subprocess
 import tomllib
 from pathlib import Path
 
@@ -91,3 +93,34 @@ def test_binder_takes_the_lock_and_the_hooks_take_its_tools():
     for hook in hooks:
         (tool,) = (package for start, package in tools.items() if hook["entry"].startswith(f".venv/bin/{start}"))
         assert tool in locked
+
+
+APT = """#!/bin/sh
+echo "$@" >>"$CALLS"
+case "$*" in *install*) for name in $BRINGS; do cp "$0" "${0%/*}/$name"; done ;; esac
+"""
+
+
+@pytest.mark.parametrize(
+    ("brings", "named", "code", "asked"),
+    [
+        ("chromium java", "", 0, "chromium default-jre-headless"),
+        ("java", "/opt/chrome", 0, "default-jre-headless"),
+        ("java", "", 1, "chromium default-jre-headless"),  # where Chromium is no package: Ubuntu
+    ],
+)
+def test_the_browser_is_installed_where_it_is_missing(tmp_path, brings, named, code, asked):
+    for program in ("bash", "sh", "cp", "env", "cat"):
+        (tmp_path / program).symlink_to(shutil.which(program))
+    for program, script in {"apt-get": APT, "id": "#!/bin/sh\necho 0\n"}.items():
+        (tmp_path / program).write_text(script)
+        (tmp_path / program).chmod(0o755)
+    given = {"PATH": str(tmp_path), "CALLS": str(tmp_path / "calls"), "BRINGS": brings, "CHROMIUM": named}
+    done = subprocess.run([str(ROOT / ".ci" / "browser")], env=given, capture_output=True, text=True)
+    assert done.returncode == code
+    calls = (tmp_path / "calls").read_text().splitlines()
+    assert [call.removeprefix("--quiet --quiet ") for call in calls] == [
+        "update",
+        f"install --yes --no-install-recommends {asked}",
+    ]
+    assert ("The gates of the site need chromium (" in done.stderr) == bool(code)
