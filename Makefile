@@ -135,7 +135,7 @@ TEACH_READY := $(TEACH_VENV)/.ready
 TEACH_ARGS ?=
 
 teach: $(TEACH_READY)
-	@$(TEACH_VENV)/bin/python -m pytest -o addopts= -p no:cacheprovider -n 2 --dist loadfile --no-loadscope-reorder \
+	@$(TEACH_VENV)/bin/python -m pytest -o addopts= -p no:cacheprovider -n 3 --dist loadfile --no-loadscope-reorder \
 		tests/teach $(TEACH_ARGS)
 
 $(TEACH_READY): requirements-teach.lock pyproject.toml
