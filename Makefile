@@ -1,14 +1,20 @@
 # Two commands do everything, each from a fresh clone with Python 3.11+ and make:
-#   make book    execute the chapters that changed and build the site at _build/html/index.html
-#   make test    run every test
+#   make book         execute the chapters that changed and build the site at _build/html/index.html
+#   make test         run every test
 # Others:
-#   make bench   measure accuracy and time on this machine, beside other integrators (some minutes; installs the
-#                bench extra first, and does without where it cannot be had); BENCH_ARGS=--quick for less
-#   make stability  run the chapters on other terms (another processor, one thread, other rounding) and compare their
-#                outputs with the stored ones (half an hour); CHAPTERS="impacts method" for some of them
-#   make accept  re-execute the source notebooks and store their new outputs (review them with git diff)
-#   make lock    re-make requirements.lock from pyproject.toml
-#   make clean   remove what was generated (the environment in .venv stays)
+#   make teach        grade the whole course headless, in an environment of its own: reference solutions, mistakes,
+#                     hostile submissions, a class of forty
+#   make pdf          build the book, then print it to _build/gearpair.pdf (needs a Chromium, see check-site)
+#   make check-site   build the book, then open every page and check it; needs Java and a Chromium on the PATH (or
+#                     CHROMIUM=/path/to/it); SITE_ARGS="-k links" for some of the gates
+#   make check-wheel  build the wheel, install it alone in an empty environment, run the README's example there
+#   make bench        measure accuracy and time on this machine, beside other integrators (some minutes; installs the
+#                     bench extra first, and does without where it cannot be had); BENCH_ARGS=--quick for less
+#   make stability    run the chapters on other terms (another processor, one thread, other rounding) and compare their
+#                     outputs with the stored ones (half an hour); CHAPTERS="impacts method" for some of them
+#   make accept       re-execute the source notebooks and store their new outputs (review them with git diff)
+#   make lock-teach   re-make requirements.lock from pyproject.toml and, in step with it, requirements-teach.lock
+#   make clean        remove what was generated (the environments stay)
 # Choose an interpreter with PYTHON=python3.12; pass options to pytest with PYTEST_ARGS="-k layers".
 
 .DEFAULT_GOAL := help
@@ -28,7 +34,7 @@ BENCH_READY := $(VENV)/.ready-bench
 RUN := $(VENV)/bin/python
 
 help:
-	@sed -n 's/^# \{0,1\}//p' Makefile
+	@sed -n '/^#/!q; s/^# //p' Makefile
 
 book: $(READY)
 	@$(RUN) -m gearpair book
@@ -43,7 +49,7 @@ bench: $(READY)
 
 $(BENCH_READY): $(READY)
 	@echo "Adding the bench extra to $(VENV)"
-	@$(RUN) -m pip install --quiet --disable-pip-version-check --retries 1 --constraint requirements.lock \
+	@$(RUN) $(PIP_INSTALL) --retries 1 --constraint requirements.lock \
 		$$($(RUN) -c 'import tomllib; \
 		print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["bench"])')
 	@touch $@
@@ -54,24 +60,36 @@ stability: $(READY)
 accept: $(READY)
 	@$(RUN) -m gearpair accept
 
-$(READY): requirements.lock pyproject.toml
-	@$(if $(PYTHON),$(PYTHON),false) -c '$(VERSION_CHECK)' || { \
-		echo "gearpair needs Python 3.11 or newer; found $$($(or $(PYTHON),python3) --version 2>&1)." \
-		"Install one, or name it: make PYTHON=/path/to/python3.11" >&2; exit 1; }
-	@echo "Setting up $(VENV) from requirements.lock (a few minutes the first time)"
-	@$(PYTHON) -m venv $(VENV)
-	@$(RUN) -m pip install --quiet --disable-pip-version-check --requirement requirements.lock
-	@$(RUN) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
-	@$(RUN) -c 'import matplotlib.font_manager'
-	@echo "Compiling the kernels (about a minute)"
-	@$(RUN) -m gearpair.study.warm_up
+# Before anything is written: an interpreter that will do, and leave to write.
+CAN_START = @$(if $(PYTHON),$(PYTHON),false) -c '$(VERSION_CHECK)' || { \
+	echo "gearpair needs Python 3.11 or newer; found $$($(or $(PYTHON),python3) --version 2>&1)." \
+	"Install one, or name it: make PYTHON=/path/to/python3.11" >&2; exit 1; }; \
+	test -w . || { echo "Nothing can be written in $(CURDIR): clone it to a directory of your own" >&2; exit 1; }
+PIP_INSTALL = -m pip install --quiet --disable-pip-version-check
+
+# $(call environment,WHERE,LOCK): the packages, the library, its kernels. pip would compile ten thousand files of the
+# packages on one core; this takes all cores, and leaves out the packages' own tests.
+define environment
+	$(CAN_START)
+	@echo "Setting up $(1) from $(2) (some minutes the first time)"
+	@$(PYTHON) -m venv $(1)
+	@$(1)/bin/python $(PIP_INSTALL) --no-compile --requirement $(2)
+	@$(1)/bin/python $(PIP_INSTALL) --no-deps --no-build-isolation --editable .
+	@$(1)/bin/python -m compileall -qq -j 0 -x '/tests?/' $(1)/lib || true # a package may hold a file of another Python
+	@$(1)/bin/python -c 'import matplotlib.font_manager'
+	@echo "Compiling the kernels (a minute or two)"
+	@$(1)/bin/python -m gearpair.study.warm_up
 	@touch $@
+endef
+
+$(READY): requirements.lock pyproject.toml
+	$(call environment,$(VENV),requirements.lock)
 
 # The lock holds for every platform and for Python 3.11 and newer; pins that are already in it are kept where they
 # still fit (delete the file first to take the newest of everything).
 lock:
 	@$(PYTHON) -m venv $(VENV)-lock
-	@$(VENV)-lock/bin/python -m pip install --quiet --disable-pip-version-check uv
+	@$(VENV)-lock/bin/python $(PIP_INSTALL) uv
 	$(VENV)-lock/bin/uv pip compile pyproject.toml --extra book --extra test --universal --python-version 3.11 \
 		--quiet --no-emit-index-url --no-emit-find-links --annotation-style line \
 		--custom-compile-command "make lock" --output-file requirements.lock
@@ -80,10 +98,7 @@ clean:
 	rm -rf _build book/chapters .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 	find gearpair tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
 
-# The gates of the site, in a real browser, and the whole book as one PDF; both bring their own packages and need a
-# Chromium on the PATH (or CHROMIUM=/path/to/it), the gates also Java.
-#   make check-site   build the book, then open every page and check it; SITE_ARGS="-k links" for some of the gates
-#   make pdf          build the book, then print it to _build/gearpair.pdf
+# The gates of the site, in a real browser, and the whole book as one PDF; both bring their own packages.
 .PHONY: check-site pdf
 SITE_ARGS ?=
 SITE_READY := $(VENV)/.ready-site
@@ -96,45 +111,35 @@ pdf: $(SITE_READY) book
 	@$(RUN) -m gearpair.study.pdf
 
 $(SITE_READY): $(READY)
+	$(CAN_START)
 	@echo "Adding the site extra to $(VENV)"
-	@$(RUN) -m pip install --quiet --disable-pip-version-check --constraint requirements.lock \
+	@$(RUN) $(PIP_INSTALL) --constraint requirements.lock \
 		$$($(RUN) -c 'import tomllib; \
 		print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["site"])')
 	@touch $@
 
-#   make check-wheel  build the wheel, install it alone in an empty environment, run the README's example there
 .PHONY: check-wheel
 check-wheel: $(READY)
+	$(CAN_START)
 	@rm -rf dist $(VENV)-wheel
 	@$(RUN) -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation --wheel-dir dist .
 	@$(PYTHON) -m venv $(VENV)-wheel
-	@$(VENV)-wheel/bin/python -m pip install --quiet --disable-pip-version-check dist/*.whl
+	@$(VENV)-wheel/bin/python $(PIP_INSTALL) --no-compile dist/*.whl
 	@$(RUN) tests/check_wheel.py $(VENV)-wheel/bin/python
 	@echo "The wheel works by itself: $$(ls dist)"
 
-# The course (notebooks/assignments) has an environment of its own, .venv-teach, since nbgrader brings a notebook server:
-#   make teach       grade the whole course headless: reference solutions, mistakes, hostile submissions, a class of forty
-#   make lock-teach  re-make requirements.lock and, in step with it, requirements-teach.lock
+# The course (notebooks/assignments) has an environment of its own, since nbgrader brings a notebook server.
 .PHONY: teach lock-teach
 TEACH_VENV := .venv-teach
 TEACH_READY := $(TEACH_VENV)/.ready
 TEACH_ARGS ?=
 
 teach: $(TEACH_READY)
-	@$(TEACH_VENV)/bin/python -m pytest -o addopts= -p no:cacheprovider -n 2 --dist loadfile --no-loadscope-reorder \
+	@$(TEACH_VENV)/bin/python -m pytest -o addopts= -p no:cacheprovider -n 3 --dist loadfile --no-loadscope-reorder \
 		tests/teach $(TEACH_ARGS)
 
 $(TEACH_READY): requirements-teach.lock pyproject.toml
-	@$(if $(PYTHON),$(PYTHON),false) -c '$(VERSION_CHECK)' || { echo "gearpair needs Python 3.11 or newer" >&2; exit 1; }
-	@echo "Setting up $(TEACH_VENV) from requirements-teach.lock (a few minutes the first time)"
-	@$(PYTHON) -m venv $(TEACH_VENV)
-	@$(TEACH_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --requirement requirements-teach.lock
-	@$(TEACH_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation \
-		--editable .
-	@$(TEACH_VENV)/bin/python -c 'import matplotlib.font_manager'
-	@echo "Compiling the kernels (about a minute)"
-	@$(TEACH_VENV)/bin/python -m gearpair.study.warm_up
-	@touch $@
+	$(call environment,$(TEACH_VENV),requirements-teach.lock)
 
 lock-teach: lock
 	$(VENV)-lock/bin/uv pip compile pyproject.toml --extra teach --constraint requirements.lock --universal \

@@ -7,7 +7,6 @@ import fcntl
 import json
 import os
 import select
-import shutil
 import subprocess
 import time
 from pathlib import Path
@@ -15,16 +14,18 @@ from typing import Any
 
 import pytest
 
-NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
+from gearpair.study.browser import find_chromium
+from gearpair.study.errors import StudyError
+
 ANSWER_WITHIN = 120.0  # seconds; a browser that is silent for longer hangs
 
 
 def chromium() -> str:
     """The browser's command; skips the test where there is none."""
-    path = next(filter(None, map(shutil.which, NAMES)), None)
-    if path is None:
-        pytest.skip(f"no browser: install one of {', '.join(NAMES)}")
-    return path
+    try:
+        return find_chromium()
+    except StudyError as error:
+        pytest.skip(str(error))
 
 
 class Browser:

@@ -38,7 +38,7 @@ def test_run_puts_the_value_in_place_of_the_default(small_book, tmp_path, capsys
         (["run", "smal"], "there is no chapter 'smal'; did you mean 'small'?"),
         (["run", "small", "-p", "c", "1"], "small has no parameter 'c'; it has a"),
         (["run", "small", "-p", "aa", "1"], "small has no parameter 'aa'; did you mean 'a'?"),
-        (["run", "small", "-f", "no.yml"], "no.yml cannot be read as YAML"),
+        (["run", "small", "-f", "no.yml"], "no.yml cannot be read: No such file or directory"),
         (["run", "small", "--html", "-o", "out.ipynb"], "must be a page (a name that ends in .html), got 'out.ipynb'"),
         (["run", "small", "-p", "a", "much"], "a of small must be a number, got 'much'"),
         (["run", "small", "-o", "out.html"], "must be a notebook (a name that ends in .ipynb), got 'out.html'"),
@@ -159,9 +159,13 @@ def test_a_directory_without_a_book_is_named(tmp_path, capsys):
     [
         ([], "gearpair: Missing command. See gearpair --help"),
         (["paint"], "gearpair: No such command 'paint'. See gearpair --help"),
-        (["run"], "gearpair: Missing argument 'CHAPTER'. See gearpair --help"),
+        (["run"], "gearpair: Missing argument 'CHAPTER'. See gearpair run --help"),
         (["run", "small", "-p", "a"], "gearpair: Option '-p' requires 2 arguments. See gearpair --help"),
-        (["run", "small", "--zzz"], "gearpair: No such option '--zzz'. See gearpair --help"),
+        (
+            ["run", "small", "-p", "a=1", "-o", "out.ipynb"],
+            "gearpair: Got unexpected extra argument (out.ipynb). See gearpair run --help",
+        ),
+        (["run", "small", "--zzz"], "gearpair: No such option '--zzz'. See gearpair run --help"),
     ],
 )
 def test_wrong_usage_exits_with_2(words, sentence, capsys):

@@ -2,6 +2,8 @@
 
 import ast
 import importlib
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -15,6 +17,14 @@ SHARED = {"_flow", "_checks", "_cores"}  # below every room: the kernels, and wh
 
 def test_imports_keep_the_contracts():
     assert lint_imports(config_filename=str(ROOT / "pyproject.toml"), no_cache=True) == 0
+
+
+def test_importing_the_library_is_quick():
+    """What is seldom needed and takes long to import waits for the call that needs it; numba imports scipy itself."""
+    program = "import gearpair, sys; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    parts = ("integrate", "linalg", "optimize", "signal", "sparse", "spatial", "stats")
+    assert not {"matplotlib", "nbformat", "papermill", *(f"scipy.{part}" for part in parts)} & {*done.stdout.split()}
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "gearpair" / "_flow").rglob("*.py")), ids=lambda path: path.name)

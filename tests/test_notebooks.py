@@ -9,6 +9,7 @@ from pathlib import Path
 
 import nbformat
 import pytest
+from papermill import inspect_notebook
 
 from gearpair.study.book import Book
 from gearpair.study.errors import StudyError
@@ -35,8 +36,8 @@ CHANGED = {
     "damping_sweep": {"mesh_frequency": "1.219", "highest": "0.2", "n_values": "51", "n_transient": "1000"},
     "method": {"mesh_frequency": "0.95", "reading": "swapped", "n_starts": "2", "n_values": "11"},
     "reproduction": {
-        **{"n_values": "21", "n_fine": "51", "n_reached": "8", "phase_step": "60"},
-        **{"n_search": "51", "n_steps": "2", "n_phases": "2"},
+        **{"n_values": "11", "n_fine": "21", "n_reached": "4", "phase_step": "60"},
+        **{"n_search": "11", "n_steps": "2", "n_phases": "2"},
     },
     "library": {"upper": "0.8", "n_values": "21"},
     "impacts": {"mean_force": "0.3", "reading": "swapped", "n_x": "13", "n_v": "9"},
@@ -94,6 +95,14 @@ def test_the_table_of_contents_lists_every_chapter():
 def test_a_chapter_declares_its_parameters(name):
     chapter = BOOK.chapter(name)  # raises unless there is one parameters cell of annotated literals with comments
     assert chapter.parameters
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
+def test_papermill_can_read_the_parameters_too(name):
+    """It warns of a line with two equal signs, and calls that parameter unknown; `... | None` it does not know."""
+    chapter = BOOK.chapter(name)
+    known = [parameter.name for parameter in chapter.parameters if "|" not in parameter.annotation]
+    assert [*inspect_notebook(chapter.path)] == known
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 
 from gearpair.drive import GearDrive
 from gearpair.motion.trajectories import stroboscopic_map
@@ -51,6 +50,8 @@ def two_rotor_difference(osc: Oscillator, x: float = 1.3, v: float = 0.2, n_peri
     >>> two_rotor_difference(Oscillator()) < 1e-5
     True
     """
+    from scipy.integrate import solve_ivp  # here, so that importing gearpair stays quick
+
     drive = UNITS.with_oscillator(osc)
     b, omega_n, omega_h = drive.half_backlash_m, drive.natural_frequency_rad_s, drive.mesh_frequency_rad_s
     radii = 1e-3 * np.array([drive.pinion_base_radius_mm, drive.gear_base_radius_mm])

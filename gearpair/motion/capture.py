@@ -7,8 +7,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from gearpair._cores import on_all_cores
 from gearpair._flow.capture import COLUMNS
@@ -123,6 +121,9 @@ def number_attractors(found: Sequence[Found]) -> tuple[list[NDArray[np.int64]], 
     Periodic attractors come first, by period and X; then chaotic sets, by their smallest X; then all unsettled motions
     as one. The table has their columns, the ``first`` motion of each and ``counts``.
     """
+    from scipy.sparse.csgraph import connected_components  # here, so that importing gearpair stays quick
+    from scipy.spatial import cKDTree
+
     marks, first = np.concatenate([f.marks for f in found]), np.concatenate([f.first for f in found])
     columns = {name: np.concatenate([f.columns[name] for f in found]) for name in found[0].columns}
     n, sets = 0, np.zeros(0, int)

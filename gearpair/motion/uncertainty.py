@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.stats import linregress
 
 from gearpair._checks import check_count
 
@@ -129,6 +128,8 @@ def uncertainty_exponent(labels: ArrayLike, *, longest: int | None = None) -> Un
     >>> round(uncertainty_exponent(smooth).exponent, 6)
     1.0
     """
+    from scipy.stats import linregress  # here, so that importing gearpair stays quick
+
     plane = _plane(labels)
     n = plane.shape[1]
     longest = max(n // 16, 1) if longest is None else check_count("longest", longest)

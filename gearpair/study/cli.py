@@ -37,7 +37,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"gearpair: {error}", file=sys.stderr)
         return 1
     except click.UsageError as error:
-        print(f"gearpair: {error.format_message()} See gearpair --help", file=sys.stderr)
+        told = error.format_message()
+        where = error.ctx.command_path if error.ctx else "gearpair"
+        print(f"gearpair: {told}{'' if told.endswith(('.', '?')) else '.'} See {where} --help", file=sys.stderr)
         return 2
     except click.Abort:  # what click makes of a KeyboardInterrupt
         print("gearpair: stopped", file=sys.stderr)
@@ -93,7 +95,7 @@ def chapters(context: click.Context) -> None:
 
 @command.command()
 @click.argument("chapter")
-@click.option("-p", "--parameter", "given", nargs=2, multiple=True, metavar="NAME VALUE", help="May be repeated.")
+@click.option("-p", "--parameter", "given", nargs=2, multiple=True, metavar="NAME VALUE", help="Repeat for more.")
 @click.option("-f", "--file", type=PATH, metavar="FILE.yml", help="Parameters in a YAML file; -p goes before it.")
 @click.option("-o", "--output", type=PATH, metavar="OUT", help="The executed notebook; CHAPTER-run.ipynb, here.")
 @click.option("--html", is_flag=True, help="Make one web page of it (CHAPTER-run.html) that needs nothing else.")
@@ -145,7 +147,9 @@ def run(
 def _read_parameters(file: Path) -> dict[str, Any]:
     try:
         read = yaml.safe_load(file.read_text(encoding="utf-8")) or {}
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+    except OSError as error:
+        raise StudyError(f"{file} cannot be read: {error.strerror or error}") from None
+    except (UnicodeDecodeError, yaml.YAMLError) as error:
         raise StudyError(f"{file} cannot be read as YAML: {str(error).splitlines()[0]}") from None
     if not isinstance(read, dict):
         raise StudyError(f"{file} must hold lines NAME: VALUE")

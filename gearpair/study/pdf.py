@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 import re
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -223,4 +224,5 @@ def _moved(tag: str, name: str) -> str:
 if __name__ == "__main__":
     here = Book.find()
     target = here.root / "_build" / "gearpair.pdf"
+    print("Printing the book (a minute or two)", file=sys.stderr)
     print(f"{target}: {print_book(here, target)} pages")

@@ -27,6 +27,7 @@ _report()
 GIVEN = ("np", "gp", "teaching", "student_id")  # what a test has beside the answers, see `given`
 STOPPED = "not run: a cell before this one ended the kernel or could not be stopped, or two were stopped"
 GONE = "the kernel died in this cell, or could not be stopped"
+REFUSED = "is not graded, give the folder another name"
 MOST_STOPS = 2
 
 
@@ -35,7 +36,8 @@ class GradeApart(Execute):
 
     def preprocess(self, nb, resources, *args, **kwargs):
         course = resources["nbgrader"]
-        self.student_id = course["student"]
+        self.student_id = checked_folder(course["student"])
+        self.typed = self.student_id
         self.stops = 0
         self.answers = {}
         with Gradebook(course["db_url"]) as gradebook:
@@ -78,7 +80,8 @@ class GradeApart(Execute):
         texts = [output.data[MIME] for output in cell.outputs if MIME in output.get("data", {})]
         answers = read_report(texts[-1]) if texts and isinstance(texts[-1], str) else {}
         typed = answers.pop("student_id", None)
-        if isinstance(typed, str) and typed.strip().lower() != self.student_id.strip().lower():
+        if isinstance(typed, str) and typed.strip().lower() not in (self.student_id.lower(), self.typed.lower()):
+            self.typed = typed.strip()
             self.log.warning("the notebook of %s was worked on with the id %r", self.student_id, typed)
         return {name: answers.get(name) for name in self.wanted}
 
@@ -86,6 +89,28 @@ class GradeApart(Execute):
         cells = {test_name(cell): cell for cell in nb.cells if cell.cell_type == "code"}
         for name, outputs in run_tests(self.tests, self.answers, self.student_id):
             cells[name].outputs = outputs
+
+
+def checked_folder(student_id):
+    """The folder's name, if it can be an id: otherwise every answer would be wrong, and nobody would know why."""
+    from gearpair.teaching import check_student_id
+
+    try:
+        check_student_id(student_id)
+    except ValueError as error:
+        raise ValueError(f"submitted/{student_id} {REFUSED}: {error}") from None
+    return student_id
+
+
+def to_the_point(record):
+    """Leave out of the log what is said of every notebook, and the traceback of a sentence.
+
+    A test always differs from what was handed out, by its hidden part, and is put back.
+    """
+    said = record.getMessage()
+    if said.startswith("Traceback") and REFUSED in said:
+        record.msg, record.args = said[said.rindex("submitted/") :].strip(), ()
+    return "Attribute 'checksum' for cell" not in said
 
 
 def test_name(cell):

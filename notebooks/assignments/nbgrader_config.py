@@ -1,14 +1,19 @@
 """The course, for nbgrader: run its commands in this directory (see the book's page for teachers)."""
 
+import logging
 import sys
+import warnings
 from pathlib import Path
+
+import zmq
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
-from grading_apart import GradeApart  # noqa: E402
+from grading_apart import GradeApart, to_the_point  # noqa: E402
 from nbgrader.converters.autograde import Autograde  # noqa: E402
 from nbgrader.preprocessors import Execute  # noqa: E402
+from sqlalchemy.exc import SAWarning  # noqa: E402
 
 c = get_config()  # noqa: F821  (traitlets puts it here)
 c.CourseDirectory.root = str(HERE)
@@ -18,6 +23,11 @@ c.ClearSolutions.code_stub = {"python": "# your code here"}
 c.ClearSolutions.text_stub = "*Your answer here.*"
 c.IncludeHeaderFooter.header = ""
 c.OverwriteCells.add_missing_cells = True  # a test that was deleted is put back
+
+# What is said of every notebook would hide what a teacher should see.
+logging.getLogger("AutogradeApp").addFilter(to_the_point)
+warnings.filterwarnings("ignore", category=SAWarning, module="nbgrader")
+c.KernelManager.transport_encryption = "auto" if zmq.has("curve") else "disabled"
 
 # The student's cells run in a kernel of their own, the tests apart from it.
 c.Autograde.autograde_preprocessors = [

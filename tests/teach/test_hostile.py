@@ -47,6 +47,7 @@ def tampered(courses):
     ):
         submit(change.__name__, change)
     course.submit(NAME, "copycat", course.solution(NAME, "ada"))
+    course.submit(NAME, "zoé müller", course.solution(NAME, "zoé müller"))
     # nbgrader refuses a cell that it did not hand out, and says so
     course.log = course.nbgrader("autograde", NAME, fails=True)
     return course
@@ -100,4 +101,16 @@ def test_an_attack_that_spoils_the_submission_is_no_gain(tampered, student):
 def test_the_id_of_somebody_else_is_told(tampered):
     assert tampered.marks(NAME)["copycat"] <= FULL / 2
     for student in ("copycat", "patches_the_library"):
-        assert f"the notebook of {student} was worked on with the id 'ada'" in tampered.log
+        assert tampered.log.count(f"the notebook of {student} was worked on with the id 'ada'") == 1
+
+
+def test_a_folder_that_cannot_be_an_id_is_refused_in_a_sentence(tampered):
+    (line,) = (line for line in tampered.log.splitlines() if "zoé müller is not graded" in line)
+    assert "give the folder another name: student_id must be your own id (2 to 64 letters" in line
+    assert not (tampered.root / "autograded" / "zoé müller" / NAME).exists()
+
+
+def test_the_log_has_no_warning_of_an_honest_submission(tampered):
+    parts = tampered.log.split("[AutogradeApp | INFO] Converting notebook ")
+    honest = [part for part in parts[1:] if "/honest/" in part.splitlines()[0]]
+    assert len(honest) == 2 and not [part for part in honest if "warning" in part.lower()]
