@@ -69,10 +69,12 @@ def surround(cells, x, v, period, owner, rows, series):
     bounds = np.empty((period + 1, RADII))
     for parts in PARTS:
         bounds[0] = radii
+        limits = radii / np.prod(factors)
         for i in range(period):
             bounds[i + 1] = bounds[i]
-            grow(cells, rows[i, X], rows[i, V], forms[i], parts, bounds[i + 1], series)
+            grow(cells, rows[i, X], rows[i, V], forms[i], parts, limits, bounds[i + 1], series)
             bounds[i + 1] *= factors[i]
+            limits *= factors[i]
         for k in range(RADII):
             if radii[k] > LEAST and bounds[period, k] < (1.0 - 1e-6) * radii[k]:
                 for i in range(period):
@@ -136,15 +138,24 @@ def contracting_norms(steps, forms, factors):
 
 
 @allocating_kernel
-def grow(cells, x, v, form, parts, bounds, series):
-    """Let the bounds W of several radii, largest first, grow over the mesh period from (x, v) of the cycle."""
+def grow(cells, x, v, form, parts, limits, bounds, series):
+    """Let the bounds W of several radii, largest first, grow over the mesh period from (x, v) of the cycle.
+
+    A bound beyond its limit cannot come back smaller than it began, and becomes infinite.
+    """
     s = np.eye(2)
+    largest = np.sum(bounds == np.inf)  # the first finite bound
     region = first_region(cells, x, v)
     for j in range(cells.level.size):
         t = 0.0
         while True:
             outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
-            grow_segment(cells, j, region, duration, series, s, form, parts, bounds)
+            start = s.copy()
+            if grow_segment(cells, j, region, duration, series, start, s, form, 1, bounds[largest:]):
+                grow_segment(cells, j, region, duration, series, start, s, form, parts, bounds[largest:])
+                while largest < len(bounds) and bounds[largest] > limits[largest]:
+                    bounds[largest] = np.inf
+                    largest += 1
             if outcome == INSIDE:
                 break
             t += duration
@@ -152,13 +163,15 @@ def grow(cells, x, v, form, parts, bounds, series):
 
 
 @allocating_kernel
-def grow_segment(cells, j, region, duration, series, s, form, parts, bounds):
-    """`grow` over one segment of cell `j`; `s` becomes the variational flow at its end."""
+def grow_segment(cells, j, region, duration, series, start, s, form, parts, bounds):
+    """`grow` over one segment of cell `j`; `s` becomes the variational flow at its end, from `start`.
+
+    Only one part is tried for whether any bound grows at all: where one might, nothing is done and True returned.
+    """
     width, level = cells.clock[j, WIDTH], cells.level[j]
     basis = cells.bases[level, abs(region)]
     stiffness = -2.0 * cells.bases[level, 1, 0, 2] / width**2
     zeta, own = cells.damping_ratio, stiffness * abs(region)
-    start = s.copy()
     gap, bend, alpha, alpha_v, beta, beta_x = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     before, jerk = 0.0, jerk_bound(series, width)
     for part in range(parts + 1):
@@ -187,10 +200,13 @@ def grow_segment(cells, j, region, duration, series, s, form, parts, bounds):
                 reach = a * bounds[k]
                 if reach <= min(gap, gap1) - sag:
                     break  # and none of the smaller ones
+                if parts == 1:
+                    return True
                 excess = ramp(reach, gap - sag, gap1 - sag) - ramp(0.0, gap - sag, gap1 - sag)
                 rate = h * b * stiffness
                 bounds[k] = bounds[k] + rate * excess / (1.0 - rate * a) if rate * a < 1.0 else np.inf
         before, gap, bend, alpha, alpha_v, beta, beta_x = at, gap1, bend1, alpha1, alpha_v1, beta1, beta_x1
+    return False
 
 
 @kernel
