@@ -117,7 +117,11 @@ def test_settled_motions(run):
     states = [gp.steady_state(gear_pair(rng), rng.normal(0.0, 1.5), rng.normal(), max_period=64) for _ in range(400)]
     bounded = [state for state in states if len(state.points)]
     # From beside the settled motion, so that no chaotic transient decides between two that coexist.
-    cases = [as_json(s.oscillator, s.points[0, 0] + 1e-6, s.points[0, 1]) for s in bounded]
+    cases = []
+    for state in bounded:
+        later = 0 if state.status == "periodic" else 2100  # what its exponents took
+        x, v = gp.stroboscopic_map(state.oscillator, *state.points[0], later)
+        cases.append(as_json(state.oscillator, float(x) + 1e-6, float(v)))
     counts = dict.fromkeys(("periodic", "aperiodic"), 0)
     for state, answer in zip(bounded, run(SETTLE, cases), strict=True):
         if state.status == "unsettled":
