@@ -8,7 +8,7 @@ import gearpair as gp
 from gearpair._flow.closed_form import TERMS, evaluate
 from gearpair._flow.exponents import exponents
 from gearpair._flow.observe import only_turn, segment_extremes, widen
-from gearpair._flow.tangent import march_tangent
+from gearpair._flow.tangent import march_tangent, newton
 
 
 def true_range(series, end):
@@ -98,8 +98,6 @@ def test_range_while_the_exponents_are_measured():
 
 def test_newton_gives_up_where_nothing_is_stable():
     """At the unstable orbit of a flipped branch the trace is far from a stable one's."""
-    from gearpair._flow.tangent import newton
-
     osc, series, m = gp.Oscillator(mesh_frequency=1.219), np.empty(TERMS), np.empty((2, 2))
     orbit = next(o for o in gp.find_orbits(osc, 1) if abs(o.monodromy.trace()) > 2.0)
     converged, x, v, _residual = newton(osc.cells, *orbit.points[0], 1, m, series)

@@ -133,7 +133,7 @@ def test_stored_outputs_are_the_same_on_every_machine(path):
     text = stored_text(path)
     assert not re.search(r" at 0x[0-9a-f]+", text), "the address of an object"
     assert not re.search(r"\d+%\|", text), "a progress bar"
-    assert not re.search(r"(/home/|/tmp/|/root/|/usr/|[A-Z]:\\)", text), "a path of one machine"
+    assert not re.search(r"(/(home|tmp|root|usr)/|[A-Z]:\\)", text), "a path of one machine"
     assert not re.search(r"\d\.\d{7,}", text), "more digits than are the same everywhere: print 3 to 5"
 
 

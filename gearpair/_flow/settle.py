@@ -22,7 +22,7 @@ PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED, NOT_RUN, EXHAUSTED = 0, 1, 2, 3, 4
 # A return as close as PROMISING, relative to max(1, |X|, |X'|), is worth a Newton search for a stable orbit whose
 # neighbourhood may capture the motion: a short one, for most are in vain, and then the next return must be LESS as far.
 PROMISING, LESS, FEW_STEPS = 1e-2, 0.1, 7
-# The trace of a stable orbit is below 2 in modulus; a search from a point where it exceeds this is in vain.
+# The trace of a stable orbit is below 2 in modulus; a search is given up where it exceeds this.
 MOST_TRACE = 10.0
 # Where no neighbourhood can be certified, a return within RETURNED counts if the stable orbit lies within CAPTURED.
 RETURNED, CAPTURED = 1e-8, 1e-6
