@@ -8,9 +8,9 @@ from benchmarks.labels import Case, cases, compare
 from gearpair import _cores
 from gearpair._flow.capture import COLUMNS, OWNER, QVV, QXV, QXX, inside, surround
 from gearpair._flow.closed_form import TERMS
-from gearpair.motion.capture import found_in, known_attractors, number_attractors, seeds, settle_from
+from gearpair.motion.capture import found_in, known_attractors, number_attractors, seeds
 from gearpair.motion.datasets import settled_columns
-from gearpair.motion.settling import SettleSettings
+from gearpair.motion.settling import SettleSettings, settle_batch
 from tests.oscillators import level
 
 BASELINE = gp.Oscillator()
@@ -98,7 +98,7 @@ def test_a_wrong_label_is_noticed():
     lying = known._replace(
         neighbourhoods=known.neighbourhoods * np.array([1, 1, 1e-8, 1e-8, 1e-8, 0]) + [0, 0, 0, 0, 0, one]
     )
-    assert np.all(settle_from(osc, starts, settings, lying).period == 1)
+    assert np.all(settle_batch([osc], starts, settings, known=lying).period == 1)
     assert compare(Case("honest", osc), 100, seed=3).changed == 0
 
 
@@ -112,7 +112,10 @@ def test_basins_do_not_depend_on_threads_or_order(monkeypatch):
     settings = SettleSettings(n_exponent=100, n_samples=1)
     known = known_attractors(osc, starts[seeds(len(starts))], settings)
     shuffled = np.random.default_rng(0).permutation(len(starts))
-    there, back = settle_from(osc, starts, settings, known), settle_from(osc, starts[shuffled], settings, known)
+    there, back = (
+        settle_batch([osc], starts, settings, known=known),
+        settle_batch([osc], starts[shuffled], settings, known=known),
+    )
     for one, other in zip(there, back, strict=True):
         np.testing.assert_array_equal(one[shuffled], other)
 
@@ -158,7 +161,7 @@ def test_numbering_does_not_depend_on_how_the_starts_are_cut():
     osc = BASELINE.replace(mesh_frequency=0.9)
     starts = np.random.default_rng(5).uniform(-3.0, 3.0, (200, 2))
     settings = SettleSettings(n_exponent=100, n_samples=1)
-    columns = settled_columns(settle_from(osc, starts, settings, known_attractors(osc, starts[:30], settings)))
+    columns = settled_columns(settle_batch([osc], starts, settings, known=known_attractors(osc, starts[:30], settings)))
     found, places = found_in(columns)
     (whole,), table = number_attractors([found])
     halves = [

@@ -8,7 +8,7 @@ import pytest
 import gearpair as gp
 from gearpair._flow.cells import build_cells
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.tangent import march_tangent
+from gearpair._flow.walk import walk
 from gearpair.motion.trajectories import raise_unless_ok
 from tests.engines import ENGINES
 from tests.oscillators import degenerate_cases, random_case
@@ -52,7 +52,7 @@ def growth(osc: gp.Oscillator, x: float, v: float) -> float:
     matrices = []
     for _ in range(PERIODS):
         m = np.eye(2)
-        status, x, v = march_tangent(cells, x, v, 1, m, series)
+        status, x, v = walk(cells, x, v, 1, series, m)
         raise_unless_ok(status, PERIODS)
         matrices.append(m)
     tail, most = np.eye(2), 1.0

@@ -6,9 +6,10 @@ from numpy.polynomial import Polynomial
 
 import gearpair as gp
 from gearpair._flow.closed_form import TERMS, evaluate
-from gearpair._flow.exponents import exponents
-from gearpair._flow.observe import only_turn, segment_extremes, widen
-from gearpair._flow.tangent import march_tangent, newton
+from gearpair._flow.newton import newton
+from gearpair._flow.observe import exponents
+from gearpair._flow.reach import begin_reach, only_turn, segment_extremes
+from gearpair._flow.walk import walk
 
 
 def true_range(series, end):
@@ -72,11 +73,12 @@ def test_what_stays_within_the_range_so_far_leaves_it_alone():
 
 @pytest.mark.parametrize("mesh_frequency", [0.7, 1.219])
 def test_range_monodromy_and_contacts_in_one_pass(mesh_frequency):
-    """`widen` sees what trajectories show and multiplies the matrix of `march_tangent`."""
+    """One walk sees what trajectories show, and multiplies the matrix of a walk that gathers nothing else."""
     osc = gp.Oscillator(mesh_frequency=mesh_frequency)
-    m, alone, series = np.eye(2), np.eye(2), np.empty(TERMS)
-    status, x, v, low, high, drive, coast = widen(osc.cells, 2.0, 0.5, 6, 2.0, 2.0, series, m)
-    assert (status, x, v) == march_tangent(osc.cells, 2.0, 0.5, 6, alone, series)
+    m, alone, reach, series = np.eye(2), np.eye(2), np.empty(4), np.empty(TERMS)
+    begin_reach(reach, 2.0)
+    assert walk(osc.cells, 2.0, 0.5, 6, series, m, reach) == walk(osc.cells, 2.0, 0.5, 6, series, alone)
+    low, high, drive, coast = reach
     np.testing.assert_allclose(m, alone, rtol=1e-12)
     motion = gp.trajectory(osc, 2.0, 0.5, 6, samples_per_period=20_000)
     assert [low, high] == pytest.approx([motion.x.min(), motion.x.max()], abs=1e-6)
@@ -86,11 +88,13 @@ def test_range_monodromy_and_contacts_in_one_pass(mesh_frequency):
 
 
 def test_range_while_the_exponents_are_measured():
-    """The block before the count belongs to it; it is the range that the march alone sees, and holds all points."""
+    """The block before the count belongs to it; it is the range that a walk alone sees, and holds all points."""
     osc, series = gp.Oscillator(mesh_frequency=1.219), np.empty(TERMS)
-    *_, low, high = exponents(osc.cells, 1.0, 0.0, 200, 20, series)
-    _status, _x, _v, x_min, x_max, _drive, _coast = widen(osc.cells, 1.0, 0.0, 210, 1.0, 1.0, series)
-    assert (low, high) == (x_min, x_max)
+    measured, reach = np.empty(4), np.empty(4)
+    exponents(osc.cells, 1.0, 0.0, 10, 200, 20, measured)
+    begin_reach(reach, 1.0)
+    walk(osc.cells, 1.0, 0.0, 210, series, None, reach)
+    np.testing.assert_array_equal(measured, reach)
     state = gp.steady_state(osc, 1.0, 0.0, n_samples=256)
     assert state.status == "aperiodic"
     assert state.x_min <= state.points[:, 0].min() and state.points[:, 0].max() <= state.x_max
@@ -100,7 +104,7 @@ def test_newton_gives_up_where_nothing_is_stable():
     """At the unstable orbit of a flipped branch the trace is far from a stable one's."""
     osc, series, m = gp.Oscillator(mesh_frequency=1.219), np.empty(TERMS), np.empty((2, 2))
     orbit = next(o for o in gp.find_orbits(osc, 1) if abs(o.monodromy.trace()) > 2.0)
-    converged, x, v, _residual = newton(osc.cells, *orbit.points[0], 1, m, series)
+    converged, x, v, _residual = newton(osc.cells, *orbit.points[0], 1, m, series, 40, np.inf)
     assert converged and abs(np.trace(m)) == pytest.approx(abs(orbit.monodromy.trace()))
     below = 0.9 * abs(np.trace(m))
     converged, *_ = newton(osc.cells, x, v, 1, m, series, 40, below)

@@ -5,7 +5,7 @@ import pytest
 
 import gearpair as gp
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.tangent import march_tangent
+from gearpair._flow.walk import walk
 from tests.oscillators import degenerate_cases, random_case
 from tests.reference import dop853_period, mpmath_period
 
@@ -65,7 +65,7 @@ def test_monodromy_against_seventy_digits(seed):
         osc, x, v = random_case(rng)
         expected = mpmath_period(osc, x, v)
         m = np.eye(2)
-        status, x1, v1 = march_tangent(osc.cells, x, v, 1, m, np.empty(TERMS))
+        status, x1, v1 = walk(osc.cells, x, v, 1, np.empty(TERMS), m)
         assert status == 0
         assert (x1, v1) == tuple(map(float, gp.stroboscopic_map(osc, x, v)))
         # A crossing at speed u moves in time by an error / u, and the matrix with it.

@@ -102,9 +102,9 @@ def test_with_another_numba_the_kernels_run_uncached_and_say_so_once(copied, cha
 
 def test_a_second_process_compiles_nothing():
     work = (
-        "import gearpair as gp; from gearpair._flow import march, settle\n"
+        "import gearpair as gp; from gearpair._flow import settle, walk\n"
         "gp.steady_state(gp.Oscillator()); gp.stroboscopic_map(gp.Oscillator(), [0.0, 1.0], 0.0)\n"
     )
-    check = "assert not march.march_starts.stats.cache_misses and not settle.settle_rows.stats.cache_misses"
+    check = "assert not walk.walk_starts.stats.cache_misses and not settle.settle_lanes.stats.cache_misses"
     subprocess.run([sys.executable, "-c", work], check=True)
     subprocess.run([sys.executable, "-c", work + check], check=True)

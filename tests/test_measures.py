@@ -6,7 +6,8 @@ from mpmath import mp, mpf
 
 import gearpair as gp
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.observe import N_MEASURES, measure
+from gearpair._flow.measures import N_MEASURES
+from gearpair._flow.observe import measure
 from gearpair.motion.measures import MEASURES, measure_columns
 from tests.oscillators import level
 from tests.reference import mpmath_period

@@ -14,7 +14,7 @@ from gearpair.article.readings import Hypothesis, by_levels
 from gearpair.article.scoring import axis, published_kind, published_motions
 from gearpair.article.trials import MAX_PERIOD
 from gearpair.motion.names import Motion
-from gearpair.motion.settling import SettleSettings, settle_lanes
+from gearpair.motion.settling import SettleSettings, settle_batch
 
 STARTS = tuple((x, v) for x in (-1.0, 0.0, 1.0, 2.0) for v in (-0.6, 0.0, 0.6))
 
@@ -125,8 +125,8 @@ def reached(
     settings = SettleSettings(n_transient=n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD)
     found = np.zeros((len(hypotheses), n_values, len(starts)), np.int64)
     for places in by_levels(hypotheses):
-        oscillators = [osc for i in places for osc in hypotheses[i].along(parameter, values) for _ in starts]
-        out = settle_lanes(oscillators, np.tile(starts, (len(oscillators) // len(starts), 1)), settings)
+        oscillators = [osc for i in places for osc in hypotheses[i].along(parameter, values)]
+        out = settle_batch(oscillators, np.tile(starts, (len(oscillators), 1)), settings)
         found[places] = out.period.reshape(len(places), n_values, len(starts))
     return [
         Reached(

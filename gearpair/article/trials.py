@@ -14,7 +14,7 @@ from gearpair._checks import check_choice, check_count
 from gearpair.article.readings import FORCINGS, Hypothesis, by_levels
 from gearpair.article.scoring import Score, axis, score
 from gearpair.methods.runge_kutta import Integrator, section_period
-from gearpair.motion.settling import SettleSettings, settle_lanes
+from gearpair.motion.settling import SettleSettings, settle_batch
 from gearpair.tables import Table
 
 MAX_PERIOD = 12  # longer ones count as no period: nobody reads them off a diagram
@@ -112,7 +112,7 @@ def periods(
             settings = SettleSettings(
                 n_transient=protocol.n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD
             )
-            drawn = settle_lanes(oscillators, starts, settings, chain=chain).period
+            drawn = settle_batch(oscillators, starts, settings, chain=chain).period
         else:
             n_discarded = check_count("n_discarded", protocol.n_discarded)
             sections = integrator.sections(

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
-from gearpair._flow.cells import START, WIDTH
 from gearpair._flow.closed_form import TERMS, evaluate_jerk
-from gearpair._flow.event_search import INSIDE, MAX_STEPS, MONOTONE, ROUNDING, UNDECIDED, certified_step
-from gearpair._flow.march import EVENT_UNDECIDED, first_region, next_segment, region_after, start_segment
-from gearpair.motion.trajectories import check_starts, raise_unless_ok
+from gearpair._flow.event_search import MAX_STEPS, MONOTONE, ROUNDING, certified_step
+from gearpair._flow.records import SEGMENT_COLUMNS, Segments
+from gearpair._flow.walk import EVENT_UNDECIDED, Details, walk
+from gearpair.motion.trajectories import check_start, raise_unless_ok
 from gearpair.oscillator import Oscillator
 
 
@@ -202,31 +202,19 @@ def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Se
     >>> sum(piece.crossing is not None for piece in pieces) == len(impacts)
     True
     """
-    xs, vs = check_starts(x, v)
-    if xs.ndim:
-        raise ValueError(f"x and v must be single numbers, got shape {xs.shape}")
+    x, v = check_start(x, v)
     n_periods = check_count("n_periods", n_periods)
-    cells = osc.cells
-    series = np.empty(TERMS)
-    x, v = float(xs), float(vs)
-    region = first_region(cells, x, v)
-    found: list[Segment] = []
-    for period in range(n_periods):
-        for j in range(len(cells.level)):
-            clock = cells.clock[j]
-            width, t, outcome = clock[WIDTH] / cells.period, 0.0, -1
-            while outcome != INSIDE:
-                fourth = start_segment(cells, j, t, x, v, region, series)
-                start, here = period + clock[START] + t * width, region
-                outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
-                if outcome == UNDECIDED:
-                    raise_unless_ok(EVENT_UNDECIDED, period)
-                crossing = None if outcome == INSIDE else float(duration)
-                found.append(Segment(float(start), float(width), here, series.copy(), 1.0 - t, fourth, crossing))
-                if outcome != INSIDE:
-                    t += duration
-                    region = region_after(region, x)
-    return found
+    rows = np.empty((0, SEGMENT_COLUMNS))
+    for _ in range(2):  # once to count the segments, once to list them
+        counts = np.zeros(1, np.int64)
+        details = Details(segments=Segments(rows, counts))
+        status, _x, _v = walk(osc.cells, x, v, n_periods, np.empty(TERMS), None, None, details)
+        raise_unless_ok(status, n_periods)
+        rows = np.empty((int(counts[0]), SEGMENT_COLUMNS)) if len(rows) == 0 else rows
+    return [
+        Segment(start, width, int(region), row[-TERMS:], rest, fourth, crossing if crossing >= 0.0 else None)
+        for row, (start, width, region, rest, fourth, crossing) in zip(rows, rows[:, :-TERMS].tolist(), strict=True)
+    ]
 
 
 def certificate_examples(pieces: Iterable[Segment]) -> dict[str, Segment | None]:

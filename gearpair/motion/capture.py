@@ -8,23 +8,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._cores import on_all_cores
 from gearpair._flow.capture import COLUMNS
-from gearpair._flow.settle import APERIODIC, PERIODIC, UNSETTLED, Known, Settled, settle_starts, surround_rows
+from gearpair._flow.settle import APERIODIC, PERIODIC, UNSETTLED, Known, Settled, surround_rows
 from gearpair.motion.datasets import settled_columns
 from gearpair.motion.same_orbit import SAME_ORBIT
-from gearpair.motion.settling import SettleSettings, room, stoppable, transient_periods
+from gearpair.motion.settling import SettleSettings, nothing_known, settle_batch
 from gearpair.oscillator import Oscillator
 
 SEEDS = 256  # starts that are settled first, at most an eighth of all
-BLOCK = 256  # starts between two moves of the progress bar
 # Chaotic motions no farther apart than this, in a chain, are one set.
 SAME_SET = {"x_min": 0.25, "x_max": 0.25, "exponent": 0.1}
-
-
-def nothing_known(settings: SettleSettings) -> Known:
-    """No attractors."""
-    return Known(room(0, settings), np.empty((0, COLUMNS)))
 
 
 def seeds(n: int) -> NDArray[np.int64]:
@@ -40,7 +33,7 @@ def known_attractors(osc: Oscillator, starts: NDArray[np.float64], settings: Set
     """
     if len(starts) == 0:
         return nothing_known(settings)
-    out = settle_from(osc, starts, settings, nothing_known(settings))
+    out = settle_batch([osc], starts, settings)
     found, _ = found_in(settled_columns(out))
     rows = np.sort(found.first[found.columns["status"] == PERIODIC])
     settled = Settled(*(column[rows] for column in out))
@@ -48,30 +41,6 @@ def known_attractors(osc: Oscillator, starts: NDArray[np.float64], settings: Set
     neighbourhoods = np.empty((int(settled.period.sum()), COLUMNS))
     filled = surround_rows(osc.cells, settled.points[:, 0].copy(), settled.period, neighbourhoods)
     return Known(settled, neighbourhoods[:filled].copy())
-
-
-def settle_from(
-    osc: Oscillator,
-    starts: NDArray[np.float64],
-    settings: SettleSettings,
-    known: Known,
-    *,
-    share: int | None = None,
-    cores: bool = True,
-    progress: bool = False,
-) -> Settled:
-    """Follow each start (n, 2) until one of the `known` attractors captures it or it has settled by itself.
-
-    `share` is the most mesh periods of one motion, where not all of the batch is given; `cores` spreads the starts over
-    the cores.
-    """
-    out = room(len(starts), settings)
-    n_transient = transient_periods(osc) if settings.n_transient is None else settings.n_transient
-    most = settings.share_of_work(len(starts)) if share is None else share
-    arguments = (osc.cells, starts, n_transient, settings.max_period, settings.n_exponent, most, known, out)
-    with stoppable(out, progress, len(starts) * min(n_transient + settings.n_exponent, most)) as done:
-        on_all_cores(settle_starts, arguments, len(starts), BLOCK if cores else max(len(starts), 1), done)
-    return out
 
 
 class Found(NamedTuple):

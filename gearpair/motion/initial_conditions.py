@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
 from gearpair._flow.settle import Known
-from gearpair.motion.capture import Found, found_in, known_attractors, number_attractors, seeds, settle_from
+from gearpair.motion.capture import Found, found_in, known_attractors, number_attractors, seeds
 from gearpair.motion.datasets import (
     attributes,
     axis_attributes,
@@ -24,7 +24,7 @@ from gearpair.motion.datasets import (
 )
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import Motion, motions_from, motions_of
-from gearpair.motion.settling import SettleSettings
+from gearpair.motion.settling import SettleSettings, settle_batch
 from gearpair.motion.steady import SteadyState, steady_state
 from gearpair.motion.stores import add_column, add_table, fill, opened_dataset, read_blocks
 from gearpair.motion.trajectories import check_starts
@@ -150,7 +150,9 @@ class Plane:
         xs, vs = self.axes["x"], self.axes["v"]
         starts = np.stack([np.tile(xs, last - first), np.repeat(vs[first:last], len(xs))], axis=1)
         share = self.settings.share_of_work(len(xs) * len(vs))
-        out = settle_from(self.osc, starts, self.settings, self.known, share=share, cores=cores, progress=progress)
+        out = settle_batch(
+            [self.osc], starts, self.settings, known=self.known, share=share, cores=cores, progress=progress
+        )
         return settled_columns(out) | way_columns(out)
 
 
@@ -245,7 +247,7 @@ def basin_stability(
     n = check_count("n", n)
     starts = random_starts(n, x_reach, v_reach, seed)
     settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
-    out = settle_from(osc, starts, settings, known_attractors(osc, starts[seeds(n)], settings))
+    out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[seeds(n)], settings))
     found, _ = found_in(settled_columns(out))
     _, table = number_attractors([found])
     import xarray as xr  # here, so that importing gearpair stays quick

@@ -24,7 +24,7 @@ from gearpair.motion.datasets import (
 )
 from gearpair.motion.measures import measure_columns
 from gearpair.motion.same_orbit import SAME_ORBIT
-from gearpair.motion.settling import SettleSettings, settle_lanes
+from gearpair.motion.settling import SettleSettings, settle_batch
 from gearpair.motion.stores import fill, opened_dataset
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
@@ -92,7 +92,7 @@ def sweep(
         n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=max(n_samples, max_period)
     )
     starts = np.broadcast_to(check_start(x, v), (len(oscillators), 2))
-    out = settle_lanes(
+    out = settle_batch(
         oscillators, starts, settings, chain=len(oscillators) if seeding == "carry" else 1, progress=progress
     )
     variables = settled_variables(out, (parameter,), (len(checked),))
@@ -231,15 +231,14 @@ class Grid:
     def _settle(self, oscillators: list[Oscillator], *, chain: int = 1, **how: bool) -> Settled:
         starts = np.broadcast_to(self.start, (len(oscillators), 2))
         share = self.settings.share_of_work(int(np.prod([len(values) for values in self.axes.values()])))
-        return settle_lanes(oscillators, starts, self.settings, chain=chain, share=share, **how)
+        return settle_batch(oscillators, starts, self.settings, chain=chain, share=share, **how)
 
     def _attractors(self, oscillators: list[Oscillator], cores: bool) -> NDArray[np.int64]:
         """How many attractors the other starts reach, for each oscillator."""
         n = len(self.others)
-        lanes = [osc for osc in oscillators for _ in range(n)]
-        out = settle_lanes(lanes, np.tile(self.others, (len(oscillators), 1)), self.settings, cores=cores)
+        out = settle_batch(oscillators, np.tile(self.others, (len(oscillators), 1)), self.settings, cores=cores)
         columns = settled_columns(out)
-        own = ({name: c[i : i + n] for name, c in columns.items()} for i in range(0, len(lanes), n))
+        own = ({name: c[i : i + n] for name, c in columns.items()} for i in range(0, len(out.status), n))
         return np.array([len(number_attractors([found_in(each)[0]])[1]["first"]) for each in own], dtype=np.int64)
 
     def _hysteresis(self, oscillators: list[Oscillator], shape: tuple[int, ...], cores: bool) -> NDArray[np.bool_]:

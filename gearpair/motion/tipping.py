@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count, check_number
-from gearpair.motion.capture import found_in, known_attractors, number_attractors, seeds, settle_from
+from gearpair.motion.capture import found_in, known_attractors, number_attractors, seeds
 from gearpair.motion.datasets import dataset, oscillators_along, settled_columns, variables_of
 from gearpair.motion.initial_conditions import ATTRACTOR_COLUMNS, random_starts
-from gearpair.motion.settling import SettleSettings
+from gearpair.motion.settling import SettleSettings, settle_batch
 from gearpair.oscillator import Oscillator
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ def continue_attractors(
         before = list(points)
         here = np.concatenate([starts, *(points[number][np.newaxis] for number in before)])
         first = np.concatenate([seeds(n), np.arange(n, len(here))])
-        out = settle_from(each, here, settings, known_attractors(each, here[first], settings))
+        out = settle_batch([each], here, settings, known=known_attractors(each, here[first], settings))
         columns = settled_columns(out)
         found, place = found_in(columns)
         (numbers,), table = number_attractors([found])
