@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import gearpair as gp
-from gearpair.motion.capture import found_in, known_attractors, number_attractors, seeds, settle_from
-from gearpair.motion.datasets import settled_columns
+from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, seeds, settle_from
+from gearpair.ensembles.datasets import settled_columns
 from gearpair.motion.settling import STATUSES, SettleSettings, Status
 from gearpair.tables import Table
 

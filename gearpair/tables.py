@@ -17,9 +17,9 @@ from gearpair.bifurcations.branches import Branch
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.bifurcations.structure import coexistence
 from gearpair.design import SpeedRange
+from gearpair.ensembles.datasets import symbol
 from gearpair.methods.certificates import Segment
 from gearpair.methods.precision import numerical_chaos
-from gearpair.motion.datasets import symbol
 from gearpair.motion.names import IMPACT_NAMES
 from gearpair.motion.steady import SteadyState
 from gearpair.oscillator import Oscillator

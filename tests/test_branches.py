@@ -257,7 +257,7 @@ def test_coexisting_orbits_are_those_that_starts_settle_on():
     ranges = gp.bifurcations.coexistence(branches, 0.7, 1.05, shortest=1e-4)
     for omega in (0.72, 0.75, 1.045):
         grid = gp.basins(BASELINE.replace(mesh_frequency=omega), np.linspace(-3, 3, 25), np.linspace(-2, 2, 25))
-        reached = {motion for motion in gp.motion.attractor_motions(grid) if motion.period in (1, 2)}
+        reached = {motion for motion in gp.ensembles.attractor_motions(grid) if motion.period in (1, 2)}
         motions = next(motions for low, high, motions in ranges if low <= omega <= high)
         assert reached == set(motions)
 

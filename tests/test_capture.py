@@ -8,8 +8,8 @@ from benchmarks.labels import Case, cases, compare
 from gearpair import _cores
 from gearpair._flow.capture import COLUMNS, OWNER, QVV, QXV, QXX, inside, surround
 from gearpair._flow.closed_form import TERMS
-from gearpair.motion.capture import found_in, known_attractors, number_attractors, seeds, settle_from
-from gearpair.motion.datasets import settled_columns
+from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, seeds, settle_from
+from gearpair.ensembles.datasets import settled_columns
 from gearpair.motion.settling import SettleSettings
 from tests.oscillators import level
 

@@ -7,7 +7,8 @@ import xarray as xr
 
 import gearpair as gp
 from gearpair.article.published import CHAOTIC, COMPLEX
-from gearpair.motion import CHAOS, Motion, MotionRange, joined_ranges, motions_of, periodic
+from gearpair.ensembles import MotionRange, joined_ranges
+from gearpair.motion import CHAOS, Motion, motions_of, periodic
 
 DOUBLE, SINGLE = gp.ImpactState.DOUBLE, gp.ImpactState.SINGLE_DRIVE
 

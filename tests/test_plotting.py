@@ -117,12 +117,12 @@ def test_range_strips_set_runs_under_the_published_ranges(result):
     assert np.allclose(above, [(r.lower, r.upper - r.lower) for r in published.ranges("mesh_frequency")])
     below = [(x, x + width) for below, x, width in bars if below]
     half = 0.0025  # of the smallest step
-    assert np.allclose(below, [(r.lower - half, r.upper + half) for r in gp.motion.motion_ranges(result)])
+    assert np.allclose(below, [(r.lower - half, r.upper + half) for r in gp.ensembles.motion_ranges(result)])
     assert "complex" in [text.get_text() for text in ax.texts]
 
 
 def test_range_lanes_give_each_motion_its_lane():
-    found = [gp.motion.MotionRange(0.0, 0.02, periodic(1)), gp.motion.MotionRange(0.01, 0.015, periodic(3))]
+    found = [gp.ensembles.MotionRange(0.0, 0.02, periodic(1)), gp.ensembles.MotionRange(0.01, 0.015, periodic(3))]
     ax = plotting.range_lanes({"published": published.ranges("damping_ratio"), "found": found})
     assert [label.get_text() for label in ax.get_yticklabels()] == ["period 1", "period 3", "chaotic"]
     full = [(bar.get_x(), bar.get_width()) for bar in ax.patches if bar.get_alpha() is None]
@@ -131,7 +131,7 @@ def test_range_lanes_give_each_motion_its_lane():
 
 
 def test_shares_are_stacked_to_one():
-    shares = gp.motion.motion_shares(OSC, "damping_ratio", [0.01, 0.02, 0.05], [-2.0, 0.0, 1.0], [0.0, 1.0])
+    shares = gp.ensembles.motion_shares(OSC, "damping_ratio", [0.01, 0.02, 0.05], [-2.0, 0.0, 1.0], [0.0, 1.0])
     ax = plotting.motion_shares(shares)
     tops = [band.get_paths()[0].vertices[:, 1].max() for band in ax.collections]
     assert tops[-1] == pytest.approx(1.0)
@@ -196,7 +196,7 @@ def test_gallery_has_a_row_for_each_motion():
 def test_basins_and_impact_states_colour_every_start(plane):
     ax = plotting.basins(plane)
     assert np.array_equal(ax.collections[0].get_array(), plane.attractor.values + 1)
-    assert legend_texts(ax) == list(map(str, gp.motion.attractor_motions(plane)))
+    assert legend_texts(ax) == list(map(str, gp.ensembles.attractor_motions(plane)))
     ax = plotting.impact_states(plane)
     shades = ax.collections[0].get_array()
     assert len(np.unique(shades)) == len(np.unique(plane.impact_state))
@@ -219,7 +219,7 @@ def test_many_attractors_are_named_by_their_colours(plane):
 
 
 def test_shares_have_at_each_value_the_colour_of_the_motion_there():
-    shares = gp.motion.continue_attractors(OSC, "mesh_frequency", [0.7, 0.72, 0.78], n=20, nearest=5.0)
+    shares = gp.ensembles.continue_attractors(OSC, "mesh_frequency", [0.7, 0.72, 0.78], n=20, nearest=5.0)
     ax = plotting.attractor_shares(shares)
     (number,) = {int(i) for i in shares.attractor[(shares.attractor_period == 4).any("mesh_frequency")]}
     assert shares.attractor_period.sel(attractor=number).values.tolist() == [2, 2, 4]

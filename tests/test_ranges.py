@@ -31,47 +31,50 @@ DOWN = made_up([3, 3, 3, 0, 2, 2, 1, 1], np.arange(8.0)[::-1])
 
 def test_runs_do_not_depend_on_the_direction():
     expected = [(0, 2, periodic(1)), (3, 3, periodic(2)), (4, 5, CHAOS), (6, 7, periodic(3))]
-    assert [(r.lower, r.upper, r.motion) for r in gp.motion.motion_ranges(UP)] == expected
+    assert [(r.lower, r.upper, r.motion) for r in gp.ensembles.motion_ranges(UP)] == expected
     flipped = UP.isel(mesh_frequency=slice(None, None, -1))
-    assert gp.motion.motion_ranges(flipped) == gp.motion.motion_ranges(UP)
+    assert gp.ensembles.motion_ranges(flipped) == gp.ensembles.motion_ranges(UP)
 
 
 def test_what_two_sweeps_saw_is_joined():
     """Each end is the one that some sweep followed the motion to; chaos has none."""
-    found = [(r.lower, r.upper, r.motion) for r in gp.motion.found_ranges(UP, DOWN)]
+    found = [(r.lower, r.upper, r.motion) for r in gp.ensembles.found_ranges(UP, DOWN)]
     assert found == [(0, 2, periodic(1)), (2, 3, periodic(2)), (5, 7, periodic(3))]
-    assert [r.motion for r in gp.motion.found_ranges(UP, DOWN, narrowest=1.5)] == [periodic(1), periodic(3)]
+    assert [r.motion for r in gp.ensembles.found_ranges(UP, DOWN, narrowest=1.5)] == [periodic(1), periodic(3)]
 
 
 def test_of_two_runs_that_overlap_the_longer_one_counts():
     """A short run inside a long one does not shorten it, whichever sweep saw it and whichever starts first."""
     long, short = made_up([1, 1, 1, 1], [0.0, 1.0, 5.0, 9.0]), made_up([3, 1, 1, 3], [2.0, 3.0, 4.0, 5.0])
     for sweeps in ((long, short), (short, long)):
-        joined = [(r.lower, r.upper) for r in gp.motion.found_ranges(*sweeps, narrowest=3.5)]
+        joined = [(r.lower, r.upper) for r in gp.ensembles.found_ranges(*sweeps, narrowest=3.5)]
         assert joined == [(0.0, 9.0)]
     touching = made_up([3, 1, 1], [8.0, 9.0, 11.0])
-    assert [(r.lower, r.upper) for r in gp.motion.found_ranges(long, touching, narrowest=3.5)] == [(0.0, 11.0)]
+    assert [(r.lower, r.upper) for r in gp.ensembles.found_ranges(long, touching, narrowest=3.5)] == [(0.0, 11.0)]
     apart = made_up([3, 1, 1], [8.0, 9.5, 11.0])
-    assert [(r.lower, r.upper) for r in gp.motion.found_ranges(long, apart, narrowest=1.5)] == [(0.0, 9.0), (9.5, 11.0)]
+    assert [(r.lower, r.upper) for r in gp.ensembles.found_ranges(long, apart, narrowest=1.5)] == [
+        (0.0, 9.0),
+        (9.5, 11.0),
+    ]
 
 
 def test_a_range_just_as_wide_as_the_narrowest_stays():
     runs = made_up([1, 1, 2, 2], [0.0, 1.0, 2.0, 4.0])
-    assert [(r.lower, r.upper) for r in gp.motion.found_ranges(runs, narrowest=1.0)] == [(0.0, 1.0), (2.0, 4.0)]
-    assert [(r.lower, r.upper) for r in gp.motion.found_ranges(runs, narrowest=1.01)] == [(2.0, 4.0)]
-    assert [r.width for r in gp.motion.found_ranges(runs)] == [1.0, 2.0]
+    assert [(r.lower, r.upper) for r in gp.ensembles.found_ranges(runs, narrowest=1.0)] == [(0.0, 1.0), (2.0, 4.0)]
+    assert [(r.lower, r.upper) for r in gp.ensembles.found_ranges(runs, narrowest=1.01)] == [(2.0, 4.0)]
+    assert [r.width for r in gp.ensembles.found_ranges(runs)] == [1.0, 2.0]
 
 
 def test_sweeps_over_two_parameters_are_not_joined():
     with pytest.raises(ValueError, match="over one parameter, got mesh_frequency, damping_ratio"):
-        gp.motion.found_ranges(UP, made_up([1], [0.1], "damping_ratio"))
+        gp.ensembles.found_ranges(UP, made_up([1], [0.1], "damping_ratio"))
     with pytest.raises(ValueError, match="a result over v, x"):
-        gp.motion.motion_ranges(gp.basins(OSC, [0.0, 1.0], [0.0, 1.0]))
+        gp.ensembles.motion_ranges(gp.basins(OSC, [0.0, 1.0], [0.0, 1.0]))
 
 
 def test_representatives_are_the_motions_named():
     result = gp.sweep(OSC, "mesh_frequency", [0.7, 0.71, 0.72, 0.78, 1.2, 1.21, 1.22])
-    shown = gp.motion.representatives(OSC, result, motions=[periodic(2), periodic(17), CHAOS], near={CHAOS: 1.219})
+    shown = gp.ensembles.representatives(OSC, result, motions=[periodic(2), periodic(17), CHAOS], near={CHAOS: 1.219})
     assert list(shown) == [periodic(2), CHAOS]  # no period 17 there
     assert shown[periodic(2)].oscillator.mesh_frequency == 0.71
     assert (shown[CHAOS].oscillator.mesh_frequency, shown[CHAOS].status) == (1.22, "aperiodic")
@@ -84,15 +87,17 @@ def test_representatives_are_the_motions_named():
 def test_a_representative_is_from_the_middle_of_the_widest_run(values, middle):
     """Whether the widest run of period 2 is the first or the last; the first sweep that met a motion gives it."""
     result = gp.sweep(OSC, "mesh_frequency", values)
-    runs = gp.motion.motion_ranges(result)
+    runs = gp.ensembles.motion_ranges(result)
     wide, narrow = sorted((run for run in runs if run.motion == runs[0].motion), key=lambda run: -run.width)
     assert wide.width > 0.03 and narrow.width == 0.0
-    (shown,) = gp.motion.representatives(OSC, result, motions=[wide.motion]).values()
+    (shown,) = gp.ensembles.representatives(OSC, result, motions=[wide.motion]).values()
     assert shown.oscillator.mesh_frequency == middle and (shown.status, shown.period) == ("periodic", 2)
-    (shown,) = gp.motion.representatives(OSC, result, motions=[wide.motion], near={wide.motion: narrow.lower}).values()
+    (shown,) = gp.ensembles.representatives(
+        OSC, result, motions=[wide.motion], near={wide.motion: narrow.lower}
+    ).values()
     assert shown.oscillator.mesh_frequency == narrow.lower
     other = gp.sweep(OSC, "mesh_frequency", [0.73])
-    (shown,) = gp.motion.representatives(OSC, other, result, motions=[wide.motion]).values()
+    (shown,) = gp.ensembles.representatives(OSC, other, result, motions=[wide.motion]).values()
     assert shown.oscillator.mesh_frequency == 0.73
 
 
@@ -102,7 +107,7 @@ def test_a_chaotic_transient_represents_nothing():
     result = gp.sweep(osc, "mesh_frequency", [0.7], x=0.0, v=0.0)
     result["status"] = result.status.astype("<U16")  # room for a longer word
     result["status"][:] = "aperiodic"
-    assert gp.motion.representatives(osc, result, motions=[CHAOS]) == {}
+    assert gp.ensembles.representatives(osc, result, motions=[CHAOS]) == {}
 
 
 def test_following_both_ways_keeps_to_one_motion():
@@ -112,10 +117,10 @@ def test_following_both_ways_keeps_to_one_motion():
     """
     state = gp.steady_state(OSC, -2.0, 1.5)
     assert (state.period, state.impact_state) == (1, "double")
-    falling, rising = gp.motion.follow(state, "mesh_frequency", [0.68, 0.69, 0.71, 0.72])
+    falling, rising = gp.ensembles.follow(state, "mesh_frequency", [0.68, 0.69, 0.71, 0.72])
     assert falling.mesh_frequency.values.tolist() == [0.69, 0.68]
     assert rising.mesh_frequency.values.tolist() == [0.71, 0.72]
-    life = gp.motion.range_of(state, "mesh_frequency", np.arange(0.6, 1.0, 0.004))
+    life = gp.ensembles.range_of(state, "mesh_frequency", np.arange(0.6, 1.0, 0.004))
     assert life.motion == periodic(1)
     (resonance,) = always_in_contact.edges(OSC, 1.0, "mesh_frequency", 0.85, 0.97)
     # |X| ~ 1 / distance from the resonance grows by a fifth in a step of 0.004 at five steps from it, by half at two.
@@ -126,16 +131,16 @@ def test_a_jump_to_another_motion_of_the_same_period_ends_a_life():
     """The large period 2 ends in a fold above 1.05, but the sweep falls onto the small period 2 that lives there."""
     state = gp.steady_state(OSC.replace(mesh_frequency=1.3), -2.0, 0.0)
     values = np.arange(1.04, 1.3, 0.002)
-    below = gp.motion.follow(state, "mesh_frequency", values)[0]
+    below = gp.ensembles.follow(state, "mesh_frequency", values)[0]
     assert below.period.values[-1] == 2 and below.x_max.values[-1] < 1.5 < state.x_max
     orbit = gp.periodic_orbit(state.oscillator, *state.points[0].tolist(), 2)
     (fold,) = [b for b in gp.continue_orbit(orbit, "mesh_frequency", 1.0, 1.4).bifurcations if b.kind == "fold"]
-    life = gp.motion.range_of(state, "mesh_frequency", values)
+    life = gp.ensembles.range_of(state, "mesh_frequency", values)
     assert fold.value < life.lower < fold.value + 0.002 and life.upper == 1.3
 
 
 def test_shares_count_the_starts():
-    shares = gp.motion.motion_shares(OSC, "damping_ratio", [0.02], [-2.0, 0.0, 1.0], [0.0])
+    shares = gp.ensembles.motion_shares(OSC, "damping_ratio", [0.02], [-2.0, 0.0, 1.0], [0.0])
     assert shares.motion.values.tolist() == ["period 1", "period 2"]
     assert gp.motion.motions_of(shares).tolist() == [periodic(1), periodic(2)]
     assert shares.share.values.tolist() == [[1 / 3, 2 / 3]]
@@ -143,19 +148,19 @@ def test_shares_count_the_starts():
 
 def test_motions_of_attractors_leave_out_small_basins():
     plane = gp.basins(OSC, np.linspace(-4, 4, 17), np.linspace(-3, 3, 13))
-    motions = gp.motion.attractor_motions(plane, 0.1)
+    motions = gp.ensembles.attractor_motions(plane, 0.1)
     assert motions == [periodic(1, gp.ImpactState.DOUBLE), periodic(2, gp.ImpactState.SINGLE_DRIVE)]
-    assert len(gp.motion.attractor_motions(plane)) > 2
+    assert len(gp.ensembles.attractor_motions(plane)) > 2
 
 
 def test_an_attractor_that_just_enough_starts_reach_stays():
     """One start of three reaches period 1, two reach period 2: a least share of a third keeps both."""
     plane = gp.basins(OSC, [-2.0, 0.0, 1.0], [0.0])
     assert plane.attractor_share.values.tolist() == [1 / 3, 2 / 3]
-    assert len(gp.motion.attractor_motions(plane)) == len(gp.motion.attractor_motions(plane, 1 / 3)) == 2
-    assert gp.motion.attractor_motions(plane, 0.34) == [periodic(2, gp.ImpactState.SINGLE_DRIVE)]
+    assert len(gp.ensembles.attractor_motions(plane)) == len(gp.ensembles.attractor_motions(plane, 1 / 3)) == 2
+    assert gp.ensembles.attractor_motions(plane, 0.34) == [periodic(2, gp.ImpactState.SINGLE_DRIVE)]
     for share, periods in ((0.0, [1, 2]), (1 / 3, [1, 2]), (0.34, [2]), (0.67, [])):
-        assert [state.period for state in gp.motion.attractor_states(OSC, plane, share)] == periods
+        assert [state.period for state in gp.ensembles.attractor_states(OSC, plane, share)] == periods
 
 
 def test_an_attractor_is_one_whichever_start_reached_it():
@@ -177,9 +182,9 @@ STATED = (
     published.Range("C", "mesh_frequency", 4.0, 8.0, periodic(2)),
 )
 FOUND = (
-    gp.motion.MotionRange(0.0, 1.5, periodic(1)),
-    gp.motion.MotionRange(4.5, 6.5, periodic(2)),
-    gp.motion.MotionRange(6.0, 8.0, periodic(4)),
+    gp.ensembles.MotionRange(0.0, 1.5, periodic(1)),
+    gp.ensembles.MotionRange(4.5, 6.5, periodic(2)),
+    gp.ensembles.MotionRange(6.0, 8.0, periodic(4)),
 )
 
 

@@ -13,7 +13,7 @@ import pytest
 from xarray.testing import assert_identical
 
 import gearpair as gp
-from gearpair.motion import decoded, stores
+from gearpair.ensembles import decoded, stores
 
 zarr = pytest.importorskip("zarr", reason="the extra 'cluster' is not installed")
 
@@ -95,7 +95,7 @@ RUN = """
 import sys
 import numpy as np
 import gearpair as gp
-from gearpair.motion import stores
+from gearpair.ensembles import stores
 from distributed import Client, LocalCluster
 
 if __name__ == "__main__":

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair import motion
-from gearpair.motion.tipping import _matched
+from gearpair import ensembles, motion
+from gearpair.ensembles.tipping import _matched
 
 
 def test_the_nearest_takes_the_number_and_the_other_tips_to_it():
@@ -26,7 +26,7 @@ def test_one_that_is_far_is_new_one_that_comes_back_takes_its_number_and_escape_
 
 def test_shares_sum_to_one_and_follow_the_basins():
     """At the baseline period 1 and 2 share the plane; above 0.1 period 1 has it alone, without the clatter."""
-    shares = motion.continue_attractors(gp.Oscillator(), "damping_ratio", [0.02, 0.021, 0.1], n=120)
+    shares = ensembles.continue_attractors(gp.Oscillator(), "damping_ratio", [0.02, 0.021, 0.1], n=120)
     np.testing.assert_allclose(shares.share.sum("attractor"), 1.0)
     double = [
         number

@@ -18,7 +18,7 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 MODULES = ("oscillator", "stiffness", "drive", "tables", "parameters")
-FOLDERS = ("teeth", "motion", "bifurcations", "methods", "design", "article", "plotting", "teaching")
+FOLDERS = ("teeth", "motion", "ensembles", "bifurcations", "methods", "design", "article", "plotting", "teaching")
 
 
 def public_names(module: ModuleType) -> list[str]:

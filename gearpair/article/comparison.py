@@ -13,10 +13,10 @@ from gearpair.article.published import Boundary, Range
 from gearpair.article.scoring import REACH, axis
 from gearpair.article.trials import Trial
 from gearpair.bifurcations.locating import Bifurcation
-from gearpair.motion.datasets import symbol
-from gearpair.motion.initial_conditions import attractor_motions
+from gearpair.ensembles.datasets import symbol
+from gearpair.ensembles.planes import attractor_motions
+from gearpair.ensembles.ranges import MotionRange
 from gearpair.motion.names import Motion
-from gearpair.motion.ranges import MotionRange
 from gearpair.tables import Table
 
 if TYPE_CHECKING:

@@ -18,10 +18,10 @@ from gearpair.bifurcations.doubling import doubling_cascade
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.bifurcations.orbits import periodic_orbit
 from gearpair.bifurcations.search import find_branches
+from gearpair.ensembles.planes import basins
+from gearpair.ensembles.sweeps import sweep
 from gearpair.methods.runge_kutta import runge_kutta_sweep
-from gearpair.motion.initial_conditions import basins
 from gearpair.motion.settling import Status
-from gearpair.motion.sweeps import sweep
 from gearpair.teeth.spurpair import SpurPair
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ from itertools import groupby, pairwise
 import numpy as np
 
 from gearpair.bifurcations.branches import Branch
+from gearpair.ensembles.ranges import MotionRange, joined_ranges
 from gearpair.motion.names import Motion, periodic
-from gearpair.motion.ranges import MotionRange, joined_ranges
 
 SNAP = 2e-4  # relative distance within which the end of a stable range is the bifurcation found there
 

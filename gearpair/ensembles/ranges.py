@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearpair._checks import check_number
-from gearpair.motion.datasets import oscillators_along
+from gearpair.ensembles.datasets import oscillators_along
+from gearpair.ensembles.sweeps import sweep
 from gearpair.motion.names import CHAOS, Motion, motions_of, periodic
 from gearpair.motion.steady import SteadyState, steady_state
-from gearpair.motion.sweeps import sweep
 from gearpair.oscillator import Oscillator
 
 if TYPE_CHECKING:

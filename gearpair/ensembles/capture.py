@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gearpair._cores import on_all_cores
 from gearpair._flow.capture import COLUMNS
 from gearpair._flow.settle import APERIODIC, PERIODIC, UNSETTLED, Known, Settled, settle_starts, surround_rows
-from gearpair.motion.datasets import settled_columns
+from gearpair.ensembles.datasets import settled_columns
 from gearpair.motion.same_orbit import SAME_ORBIT
 from gearpair.motion.settling import SettleSettings, room, stoppable, transient_periods
 from gearpair.oscillator import Oscillator

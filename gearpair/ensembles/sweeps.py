@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_choice
 from gearpair._flow.settle import Settled
-from gearpair.motion.capture import found_in, number_attractors
-from gearpair.motion.datasets import (
+from gearpair.ensembles.capture import found_in, number_attractors
+from gearpair.ensembles.datasets import (
     attributes,
     dataset,
     oscillators_along,
@@ -22,10 +22,10 @@ from gearpair.motion.datasets import (
     settled_variables,
     variables_of,
 )
+from gearpair.ensembles.stores import fill, opened_dataset
 from gearpair.motion.measures import measure_columns
 from gearpair.motion.same_orbit import SAME_ORBIT
 from gearpair.motion.settling import SettleSettings, settle_lanes
-from gearpair.motion.stores import fill, opened_dataset
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
 
@@ -191,7 +191,7 @@ def parameter_map(
 
 @dataclass(frozen=True)
 class Grid:
-    """A grid of parameters to be settled in any parts (a `gearpair.motion.stores.Job`)."""
+    """A grid of parameters to be settled in any parts (a `gearpair.ensembles.stores.Job`)."""
 
     osc: Oscillator
     axes: dict[str, NDArray[np.float64]]

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
-from gearpair.motion.datasets import axis_attributes, variables_of
+from gearpair.ensembles.datasets import axis_attributes, variables_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -128,7 +128,7 @@ def decoded(result: xr.Dataset) -> xr.Dataset:
 
     Examples
     --------
-    >>> from gearpair.motion import basins
+    >>> from gearpair.ensembles import basins
     >>> from gearpair.oscillator import Oscillator
     >>> decoded(basins(Oscillator(), [1.0], [0.0])).status.values.tolist()
     [['periodic']]
@@ -148,7 +148,7 @@ def decoded(result: xr.Dataset) -> xr.Dataset:
 def engine() -> str:
     """What numbers depend on besides the arguments: the sources that make them and the compiler."""
     folder = Path(__file__).parents[1]
-    sources = sorted(path for room in ("_flow", "motion") for path in (folder / room).glob("*.py"))
+    sources = sorted(path for room in ("_flow", "motion", "ensembles") for path in (folder / room).glob("*.py"))
     digest = sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()[:16]
     return f"sources {digest}, numba {version('numba')}"
 

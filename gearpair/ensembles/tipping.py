@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count, check_number
-from gearpair.motion.capture import found_in, known_attractors, number_attractors, seeds, settle_from
-from gearpair.motion.datasets import dataset, oscillators_along, settled_columns, variables_of
-from gearpair.motion.initial_conditions import ATTRACTOR_COLUMNS, random_starts
+from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, seeds, settle_from
+from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
+from gearpair.ensembles.planes import ATTRACTOR_COLUMNS
+from gearpair.ensembles.shares import random_starts
 from gearpair.motion.settling import SettleSettings
 from gearpair.oscillator import Oscillator
 
