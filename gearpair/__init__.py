@@ -1,14 +1,13 @@
 """Nonlinear dynamics of a spur gear pair with backlash and time-varying mesh stiffness.
 
 Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`. What is not here is in the folder that
-its subject names: `teeth`, `motion`, `ensembles`, `bifurcations`, `design`, `methods`, `article`, `plotting`; tables in
-`tables`.
+its subject names: `teeth`, `motion`, `ensembles`, `bifurcations`, `design`, `methods`, `article`, `plotting`.
 """
 
 import importlib
 from typing import Any
 
-from gearpair import article, bifurcations, design, ensembles, methods, motion, tables, teeth
+from gearpair import article, bifurcations, design, ensembles, methods, motion, teeth
 from gearpair.article import published
 from gearpair.bifurcations import (
     Bifurcation,
@@ -36,7 +35,7 @@ from gearpair.motion import (
 )
 from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
-from gearpair.tables import Table
+from gearpair.table import Table
 from gearpair.teeth import SpurPair, mesh_stiffness
 
 __all__ = [
@@ -74,7 +73,6 @@ __all__ = [
     "steady_state",
     "stroboscopic_map",
     "sweep",
-    "tables",
     "teeth",
     "trajectory",
 ]

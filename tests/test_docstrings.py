@@ -15,7 +15,6 @@ ROOMS = (
     "article",
     "plotting",
     "teaching",
-    "tables",
 )
 
 

@@ -62,7 +62,7 @@ def test_certificates_hold(pieces):
 
 
 def test_certificate_table_counts_every_segment(pieces):
-    rows = gp.tables.certificate_table(pieces).rows
+    rows = gp.methods.certificate_table(pieces).rows
     assert sum(int(row[1]) for row in rows) == len(pieces)
     assert rows[0][2] == "0"
 

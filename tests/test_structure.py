@@ -173,7 +173,7 @@ def test_a_cascade_s_ratios_are_gap_over_next_gap():
     for sign in (1.0, -1.0):
         values = [1.0 + sign * (1.0 - 4.0**-k) * 0.1 for k in range(4)]
         flips = [made_up("flip", value, 2**k) for k, value in enumerate(values)]
-        (row,) = gp.tables.cascade_table([flips], digits=4).rows
+        (row,) = gp.bifurcations.cascade_table([flips], digits=4).rows
         assert row == ("1 2 4 8", " ".join(f"{value:.4f}" for value in values), "4.00 4.00")
 
 
@@ -184,6 +184,6 @@ def test_bifurcations_are_listed_by_value_with_their_contacts():
         [1, 1, 1],
         located=[(1, made_up("flip", 2.5)), (0, made_up("grazing", 1.5, contacts=((2, 0), (1, 0))))],
     )
-    rows = gp.tables.bifurcation_table([branch], digits=1).rows
+    rows = gp.bifurcations.bifurcation_table([branch], digits=1).rows
     assert [row[:2] for row in rows] == [("grazing", "1.5"), ("flip", "2.5")]
     assert [row[3] for row in rows] == ["2 + 0 | 1 + 0", "1 + 0"]

@@ -17,7 +17,7 @@ from gearpair.ensembles.datasets import symbol
 from gearpair.ensembles.planes import attractor_motions
 from gearpair.ensembles.ranges import MotionRange
 from gearpair.motion.names import Motion
-from gearpair.tables import Table
+from gearpair.table import Table
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -15,7 +15,7 @@ from gearpair.article.scoring import REACH, axis, published_motions
 from gearpair.article.trials import Trial
 from gearpair.bifurcations.curves import continue_bifurcation
 from gearpair.bifurcations.locating import Bifurcation
-from gearpair.tables import Table
+from gearpair.table import Table
 
 # A published boundary is met by one between the same two motions this near, about what its printed digits leave open.
 TOLERANCES = {"mesh_frequency": 0.003, "damping_ratio": 0.0002}

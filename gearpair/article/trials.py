@@ -15,7 +15,7 @@ from gearpair.article.readings import FORCINGS, Hypothesis, by_levels
 from gearpair.article.scoring import Score, axis, score
 from gearpair.methods.runge_kutta import Integrator, section_period
 from gearpair.motion.settling import SettleSettings, settle_lanes
-from gearpair.tables import Table
+from gearpair.table import Table
 
 MAX_PERIOD = 12  # longer ones count as no period: nobody reads them off a diagram
 

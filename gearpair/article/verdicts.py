@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from gearpair.article import published
-from gearpair.tables import Table
+from gearpair.table import Table
 
 Decided = Literal["confirmed", "corrected", "contrary", "refuted", "vacuous"]
 Undecided = Literal["definition", "assumption", "advice"]

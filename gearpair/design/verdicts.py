@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair.motion.impacts import ImpactState
+from gearpair.table import Table
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -115,3 +117,38 @@ def _edge(chart: xr.Dataset, speeds: NDArray[np.float64], i: int) -> float:
     jumps = chart.jump_speed.values
     near = jumps[(jumps >= speeds[i - 1]) & (jumps <= speeds[i])]
     return float(near[0]) if len(near) else float(0.5 * (speeds[i - 1] + speeds[i]))
+
+
+def speed_range_table(ranges: Iterable[SpeedRange]) -> Table:
+    """The speeds to avoid, one row a range: why, and the worst of it.
+
+    Parameters
+    ----------
+    ranges : iterable of SpeedRange
+        Of `gearpair.design.speeds_to_avoid`.
+
+    Returns
+    -------
+    Table
+
+    Examples
+    --------
+    >>> from gearpair.design import SpeedRange
+    >>> speed_range_table([SpeedRange(6836.7, 8139.1, "the teeth part", ("period 1",), 3.779, 0.571, 568.0)])
+    rpm        why             motions   dynamic factor  time apart  impacts at (mm/s)
+    ----------------------------------------------------------------------------------
+    6837–8139  the teeth part  period 1             3.8         57%                568
+    """
+    rows = [
+        [
+            f"{run.lower:.0f}–{run.upper:.0f}",
+            run.why,
+            ", ".join(run.motions) if len(run.motions) < 4 else f"{len(run.motions)} kinds",
+            f"{run.dynamic_factor:.1f}",
+            f"{run.time_apart:.0%}",
+            f"{run.impact_velocity:.3g}",
+        ]
+        for run in ranges
+    ]
+    columns = ["rpm", "why", "motions", "dynamic factor", "time apart", "impacts at (mm/s)"]
+    return Table(columns, rows or [["none", "the teeth stay in contact", *["–"] * 4]])

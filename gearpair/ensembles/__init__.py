@@ -8,6 +8,7 @@ from gearpair.ensembles.ranges import (
     found_ranges,
     joined_ranges,
     motion_ranges,
+    motion_table,
     range_of,
     representatives,
 )
@@ -33,6 +34,7 @@ __all__ = [
     "joined_ranges",
     "motion_ranges",
     "motion_shares",
+    "motion_table",
     "parameter_map",
     "range_of",
     "representatives",

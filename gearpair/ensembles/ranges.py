@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearpair._checks import check_number
-from gearpair.ensembles.datasets import oscillators_along
+from gearpair.ensembles.datasets import oscillators_along, symbol
 from gearpair.ensembles.sweeps import sweep
-from gearpair.motion.names import CHAOS, Motion, motions_of, periodic
+from gearpair.motion.names import CHAOS, IMPACT_NAMES, Motion, motions_of, periodic
 from gearpair.motion.steady import SteadyState, steady_state
 from gearpair.oscillator import Oscillator
+from gearpair.table import Table
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -269,3 +270,25 @@ def range_of(state: SteadyState, parameter: str, values: ArrayLike, **settings: 
         if len(kept):
             ends = [min(ends[0], float(kept.min())), max(ends[1], float(kept.max()))]
     return MotionRange(ends[0], ends[1], motion)
+
+
+def motion_table(states: Mapping[Any, SteadyState], parameter: str, digits: int = 3) -> Table:
+    """Settled motions by name: the value of a parameter, extremes, impact state, modulus of the larger multiplier.
+
+    Of a motion that is not periodic only the value is told: the rest depends on the span that was looked at.
+
+    Examples
+    --------
+    >>> from gearpair import steady_state
+    >>> motion_table({"the baseline": steady_state(Oscillator())}, "damping_ratio")
+    motion         zeta  X_min  X_max  impact state  largest multiplier
+    -------------------------------------------------------------------
+    the baseline  0.020  0.118  1.492  single-sided               0.698
+    """
+    rows = []
+    for name, state in states.items():
+        cells = [f"{state.x_min:.{digits}f}", f"{state.x_max:.{digits}f}", IMPACT_NAMES[state.impact_state or ""]]
+        cells.append(f"{abs(state.multipliers[0]):.{digits}f}")
+        value = f"{state.oscillator.parameter(parameter):.{digits}f}"
+        rows.append([name, value, *(cells if state.period else ["–"] * len(cells))])
+    return Table(["motion", symbol(parameter), "X_min", "X_max", "impact state", "largest multiplier"], rows)
