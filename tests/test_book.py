@@ -13,7 +13,8 @@ import pytest
 from bs4 import BeautifulSoup
 
 import gearpair as gp
-from gearpair.article import Verdict, published, verdict_table
+from gearpair.article import published
+from gearpair.article.case import Verdict, verdict_table
 from gearpair.study.book import Book
 from gearpair.study.chapters import Parameter
 from gearpair.study.cli import main

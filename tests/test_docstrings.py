@@ -13,6 +13,7 @@ ROOMS = (
     "design",
     "methods",
     "article",
+    "article.case",
     "plotting",
     "teaching",
 )

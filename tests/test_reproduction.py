@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gearpair.article import published
-from gearpair.article.scoring import REACH, published_kind, published_motions, score
+from gearpair.article.case.scoring import REACH, published_kind, published_motions, score
 from gearpair.motion import periodic
 
 PARAMETERS = ("mesh_frequency", "damping_ratio")

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair import article as hy
-from gearpair.article import items as article_items
-from gearpair.article import published, verdicts
+from gearpair import article
+from gearpair.article import case, published
+from gearpair.article.case import items as article_items
+from gearpair.article.case import verdicts
 
+BOTH = [article.PRINTED, article.SWAPPED]
 FAILS, NEARLY, HOLDS = verdicts.FAILS, verdicts.NEARLY, verdicts.HOLDS
 
 
@@ -69,12 +71,12 @@ def test_counts_and_counter_evidence_come_from_the_same_list():
 
 def test_the_table_wants_every_item_exactly_once():
     items = [verdicts.Verdict(s.item, "", "", "vacuous", "logic") for s in published.STATEMENTS]
-    assert [row[0] for row in hy.verdict_table(reversed(items)).rows] == [s.item for s in published.STATEMENTS]
+    assert [row[0] for row in case.verdict_table(reversed(items)).rows] == [s.item for s in published.STATEMENTS]
     with pytest.raises(ValueError, match="look at F3"):
-        hy.verdict_table([v for v in items if v.item != "F3"])
+        case.verdict_table([v for v in items if v.item != "F3"])
     with pytest.raises(ValueError, match="exactly once"):
-        hy.verdict_table(items, items[:1])
-    row = hy.verdict_table(
+        case.verdict_table(items, items[:1])
+    row = case.verdict_table(
         [verdicts.Verdict("F3", "so", "or so", "refuted", "a test")], (v for v in items if v.item != "F3")
     ).rows
     assert [r[2:] for r in row if r[0] == "F3"] == [("so", "or so", "refuted", "a test")]
@@ -82,13 +84,13 @@ def test_the_table_wants_every_item_exactly_once():
 
 @pytest.fixture(scope="module")
 def changes():
-    return {h: hy.bifurcations_of(h) for h in (hy.PRINTED, hy.SWAPPED)}
+    return {h: case.bifurcations_of(h) for h in (article.PRINTED, article.SWAPPED)}
 
 
 def test_the_named_bifurcations_of_the_swapped_reading(changes):
     """F2, F4, F6 and D4: flips of periods 1, 2 and 2, and a fold of period 3; F4 and D4 within 1 % of the axis."""
     named = {
-        b.item: hy.named_bifurcation(b, changes[hy.SWAPPED])
+        b.item: case.named_bifurcation(b, changes[article.SWAPPED])
         for b in published.FREQUENCY_BOUNDARIES + published.DAMPING_BOUNDARIES
     }
     assert [(named[item].kind, named[item].period) for item in ("F2", "F4", "F6", "D4")] == [
@@ -100,9 +102,9 @@ def test_the_named_bifurcations_of_the_swapped_reading(changes):
 
 
 def test_boundaries_are_judged_by_the_same_evidence_in_both_readings(changes):
-    words = {v.item: v.verdict for v in hy.boundary_items(changes[hy.PRINTED], changes[hy.SWAPPED])}
+    words = {v.item: v.verdict for v in case.boundary_items(changes[article.PRINTED], changes[article.SWAPPED])}
     assert words == {"F2": "corrected", "F4": "corrected", "F6": "corrected", "D4": "corrected"}
-    turned = {v.item: v.verdict for v in hy.boundary_items(changes[hy.SWAPPED], changes[hy.PRINTED])}
+    turned = {v.item: v.verdict for v in case.boundary_items(changes[article.SWAPPED], changes[article.PRINTED])}
     assert turned["F4"] == turned["F2"] == turned["D4"] == "contrary"
 
 
@@ -114,17 +116,17 @@ def changes_at(*values, kind="fold", parameter="damping_ratio"):
 def test_a_distance_of_zero_from_the_stated_values_is_beyond_chance():
     """Changes exactly at the published boundaries: distance 0, which no random table has."""
     stated = [b.value for b in published.DAMPING_BOUNDARIES]
-    assert hy.distance_from_bifurcations("damping_ratio", changes_at(*stated)) == (0.0, 0.0)
+    assert case.distance_from_bifurcations("damping_ratio", changes_at(*stated)) == (0.0, 0.0)
     off = changes_at(*stated, kind="grazing") + changes_at(0.5 * sum(stated)) + changes_at(*stated, parameter="b")
-    distance, _ = hy.distance_from_bifurcations("damping_ratio", off)  # grazings and other parameters do not count
+    distance, _ = case.distance_from_bifurcations("damping_ratio", off)  # grazings and other parameters do not count
     assert distance == pytest.approx(0.5 * (stated[1] - stated[0]))
 
 
 def test_the_chance_of_a_distance_is_the_area_it_must_be(changes):
     """One change at c, two boundaries: the share of the square of random ones with (|u - c| + |v - c|) / 2 <= d."""
     (boundary,) = [b for b in published.DAMPING_BOUNDARIES if b.item == "D4"]
-    fold = hy.named_bifurcation(boundary, changes[hy.SWAPPED])
-    distance, chance = hy.distance_from_bifurcations("damping_ratio", [fold], n=20_000)
+    fold = case.named_bifurcation(boundary, changes[article.SWAPPED])
+    distance, chance = case.distance_from_bifurcations("damping_ratio", [fold], n=20_000)
     assert distance == pytest.approx(np.mean([abs(b.value - fold.value) for b in published.DAMPING_BOUNDARIES]))
     away = np.abs((np.arange(2000) + 0.5) / 2000 * 0.025 - fold.value)
     area = np.mean(0.5 * (away[:, None] + away) <= distance)
@@ -136,35 +138,33 @@ def test_the_phase_asked_for_puts_the_bifurcation_where_it_is_published(changes)
     """F11: at that phase period 1 of the swapped reading has its flip at 1.555, and is stable only above."""
     (boundary,) = [b for b in published.FREQUENCY_BOUNDARIES if b.item == "F11"]
     flip = min(
-        (b for b in changes[hy.SWAPPED] if (b.kind, b.period) == ("flip", 1)), key=lambda b: abs(b.value - 1.555)
+        (b for b in changes[article.SWAPPED] if (b.kind, b.period) == ("flip", 1)), key=lambda b: abs(b.value - 1.555)
     )
-    (phase,) = hy.asked_phases(flip, boundary.value, 0.1)
+    (phase,) = case.asked_phases(flip, boundary.value, 0.1)
     assert -0.05 < phase < -0.03
-    turned = hy.Hypothesis(stiff_for="2 - eps", phase=float(np.degrees(phase)))
+    turned = article.Hypothesis(stiff_for="2 - eps", phase=float(np.degrees(phase)))
     for omega, stable in ((1.5545, False), (1.5555, True)):
         orbit = gp.periodic_orbit(turned.oscillator(omega), flip.x, flip.v, 1)
         assert orbit.stable is stable
 
 
 def test_existence_in_the_swapped_reading_and_not_in_the_printed():
-    reached = [
-        hy.reached([hy.PRINTED, hy.SWAPPED], p, 20, n_discarded=200) for p in ("mesh_frequency", "damping_ratio")
-    ]
-    words = {v.item: v for v in hy.range_items(*zip(*reached, strict=True))}
+    reached = [case.reached(BOTH, p, 20, n_discarded=200) for p in ("mesh_frequency", "damping_ratio")]
+    words = {v.item: v for v in case.range_items(*zip(*reached, strict=True))}
     assert {words[item].verdict for item in ("F3", "F5", "F10", "F11", "D3")} == {"corrected"}
     assert words["F11"].best == "on all of it"
     assert "D1" not in words
 
 
 def test_chaos_at_small_damping_is_a_transient():
-    d1, d2 = hy.transient_items(hy.PRINTED, hy.SWAPPED)
+    d1, d2 = case.transient_items(article.PRINTED, article.SWAPPED)
     assert d1.verdict == d2.verdict == "refuted"
     assert d1.best == "after 30 000 periods chaotic at 0 of 5 values"
 
 
 def test_one_period_two_impact_states():
     """I4: in the swapped reading every start leads to period 1, and yet to one of two impact states."""
-    items = {v.item: v for v in hy.start_items(hy.PRINTED, hy.SWAPPED)}
+    items = {v.item: v for v in case.start_items(article.PRINTED, article.SWAPPED)}
     assert items["I4"].verdict == "corrected"
     assert items["I4"].best == "2 attractors, period 1: double and single_drive"
     assert "unique meaning of one period" in items["I4"].decided_by
@@ -175,7 +175,7 @@ def test_one_period_two_impact_states():
 
 def test_the_frequency_is_the_main_parameter_of_the_two():
     """C1: along the damping a carried sweep stays on period 1 in both readings, along the frequency it does not."""
-    items = {v.item: v for v in hy.chaos_items(hy.PRINTED, hy.SWAPPED)}
+    items = {v.item: v for v in case.chaos_items(article.PRINTED, article.SWAPPED)}
     assert items["C1"].verdict == "confirmed"
     assert items["C1"].best == "4 kinds of motion along the frequency, 1 along the damping at Omega_h 0.7"
     assert items["C1"].printed.endswith("1 along the damping at Omega_h 0.7")
@@ -194,9 +194,9 @@ def test_a_share_is_told_in_words():
 
 
 def test_statements_about_the_model():
-    reached = [hy.reached([hy.PRINTED, hy.SWAPPED], p, 6, n_discarded=200) for p in ("mesh_frequency", "damping_ratio")]
+    reached = [case.reached(BOTH, p, 6, n_discarded=200) for p in ("mesh_frequency", "damping_ratio")]
     shares = {"rectangle": 0.8, "sinusoid": 0.6}
-    items = {v.item: v for v in hy.model_items(hy.PRINTED, hy.SWAPPED, reached, shares)}
+    items = {v.item: v for v in case.model_items(*BOTH, reached, shares)}
     assert items["M5"].verdict == "refuted" and "0.9464" in items["M5"].printed and "0.7556" in items["M5"].best
     assert items["F14"].verdict == "vacuous"
     assert items["K2"].verdict == "corrected"
@@ -204,14 +204,14 @@ def test_statements_about_the_model():
     assert items["K5"].verdict == items["C4"].verdict == "confirmed"
     words = {item: items[item].verdict for item in ("M1", "M2", "K1", "N3", "C5")}
     assert words == {"M1": "assumption", "M2": "definition", "K1": "assumption", "N3": "definition", "C5": "advice"}
-    turned = {v.item: v for v in hy.model_items(hy.PRINTED, hy.SWAPPED, reached, {"rectangle": 0.6, "sinusoid": 0.8})}
+    turned = {v.item: v for v in case.model_items(*BOTH, reached, {"rectangle": 0.6, "sinusoid": 0.8})}
     assert turned["K5"].verdict == turned["C4"].verdict == "refuted"
 
 
 def test_two_rotors_are_the_one_oscillator_and_no_other():
     """Across contacts and switches; with another phase of the error they are not."""
     osc = gp.Oscillator(mesh_frequency=1.219, error_phase=0.7)
-    assert hy.two_rotor_difference(osc) < 1e-5
+    assert case.two_rotor_difference(osc) < 1e-5
     for changed in (osc.replace(error_phase=0.71), osc.replace(damping_ratio=0.021), osc.replace(mean_force=0.101)):
         there = gp.stroboscopic_map(changed, 1.3, 0.2, 2)[0]
         assert abs(float(there) - float(gp.stroboscopic_map(osc, 1.3, 0.2, 2)[0])) > 1e-5

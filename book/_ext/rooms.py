@@ -18,7 +18,18 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 MODULES = ("oscillator", "stiffness", "drive", "table", "parameters")
-FOLDERS = ("teeth", "motion", "ensembles", "bifurcations", "methods", "design", "article", "plotting", "teaching")
+FOLDERS = (
+    "teeth",
+    "motion",
+    "ensembles",
+    "bifurcations",
+    "methods",
+    "design",
+    "article",
+    "article.case",
+    "plotting",
+    "teaching",
+)
 
 
 def public_names(module: ModuleType) -> list[str]:

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair.article import published
-from gearpair.article.readings import Hypothesis, by_levels
-from gearpair.article.scoring import axis, published_kind, published_motions
-from gearpair.article.trials import MAX_PERIOD
+from gearpair.article.case.scoring import axis, published_kind, published_motions
+from gearpair.article.case.trials import MAX_PERIOD, by_levels
+from gearpair.article.readings import Hypothesis
 from gearpair.motion.names import Motion
 from gearpair.motion.settling import SettleSettings, settle_lanes
 

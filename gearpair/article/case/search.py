@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from gearpair._checks import check_count
 from gearpair.article import published
-from gearpair.article.comparison import named_bifurcation
-from gearpair.article.scoring import REACH, axis, published_motions
-from gearpair.article.trials import Trial
+from gearpair.article.case.boundaries import named_bifurcation
+from gearpair.article.case.scoring import REACH, axis, published_motions
+from gearpair.article.case.trials import Trial
 from gearpair.bifurcations.curves import continue_bifurcation
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.table import Table
@@ -34,7 +34,8 @@ def boundaries_met(trial: Trial) -> int:
 
     Examples
     --------
-    >>> from gearpair.article import SWAPPED, Protocol, run_trials
+    >>> from gearpair.article import SWAPPED
+    >>> from gearpair.article.case import Protocol, run_trials
     >>> boundaries_met(run_trials([SWAPPED], [Protocol("down")], 26)[0]) < 8
     True
     """
@@ -64,7 +65,8 @@ def most_met_by_chance(trials: Sequence[Trial], n: int = 1000, *, seed: int = 0)
 
     Examples
     --------
-    >>> from gearpair.article import SWAPPED, Protocol, run_trials
+    >>> from gearpair.article import SWAPPED
+    >>> from gearpair.article.case import Protocol, run_trials
     >>> most_met_by_chance(run_trials([SWAPPED], [Protocol("down")], 11), 10).shape
     (10,)
     """
@@ -98,7 +100,8 @@ def search_table(families: Mapping[str, tuple[Sequence[Trial], Sequence[Trial]]]
 
     Examples
     --------
-    >>> from gearpair.article import PRINTED, SWAPPED, Protocol, run_trials
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> from gearpair.article.case import Protocol, run_trials
     >>> printed, swapped = ([trial] for trial in run_trials([PRINTED, SWAPPED], [Protocol("down")], 6))
     >>> search_table({"seeding": (swapped, printed)}).rows[0][3]
     'exact flow, down'

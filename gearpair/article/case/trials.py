@@ -1,4 +1,4 @@
-"""Ways to draw the article's diagrams, and what readings score by them: a `Trial` is a reading and a `Protocol`."""
+"""All readings, the ways to draw the article's diagrams, and what scores: a `Trial` is a reading and a `Protocol`."""
 
 from __future__ import annotations
 
@@ -11,13 +11,52 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._checks import check_choice, check_count
-from gearpair.article.readings import FORCINGS, Hypothesis, by_levels
-from gearpair.article.scoring import Score, axis, score
+from gearpair.article.case.scoring import Score, axis, score
+from gearpair.article.readings import FORCINGS, Hypothesis
 from gearpair.methods.runge_kutta import Integrator, section_period
 from gearpair.motion.settling import SettleSettings, settle_lanes
 from gearpair.table import Table
 
 MAX_PERIOD = 12  # longer ones count as no period: nobody reads them off a diagram
+
+
+def all_hypotheses() -> tuple[Hypothesis, ...]:
+    """Every combination of the readings of a rectangle, the phase in quarter turns, and one harmonic in its place.
+
+    The damping at the wave's mean is left out where that mean is one: it is then the article's own. One harmonic is
+    combined with durations, order and phase only.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED
+    >>> len(all_hypotheses()), all_hypotheses()[0] == PRINTED
+    (176, True)
+    """
+    orders = list(product(("eps - 1", "2 - eps"), ("stiff", "soft"), FORCINGS))
+    scalings = [
+        (force, mean, damping)
+        for force, mean, damping in product(
+            ("Omega^2", "constant"), ("as printed", "one"), ("2 zeta", "zeta", "2 zeta sqrt(mean)")
+        )
+        if (mean, damping) != ("one", "2 zeta sqrt(mean)")
+    ]
+    rectangles = [
+        Hypothesis(stiff_for=s, first=i, phase=p, force=f, mean=m, damping=d)  # type: ignore[arg-type]
+        for (s, i, p), (f, m, d) in product(orders, scalings)
+    ]
+    harmonics = [
+        Hypothesis(stiff_for=s, first=i, phase=p, shape="first harmonic")  # type: ignore[arg-type]
+        for s, i, p in orders
+    ]
+    return (*rectangles, *harmonics)
+
+
+def by_levels(hypotheses: Sequence[Hypothesis]) -> list[list[int]]:
+    """The places of hypotheses whose waves have equally many levels, which can be followed side by side."""
+    places: dict[int, list[int]] = {}
+    for i, hypothesis in enumerate(hypotheses):
+        places.setdefault(len(hypothesis.wave.levels), []).append(i)
+    return list(places.values())
 
 
 @dataclass(frozen=True)

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearpair.article import published
-from gearpair.article.comparison import named_bifurcation, nearest
-from gearpair.article.existence import Reached
+from gearpair.article.case.boundaries import named_bifurcation, nearest
+from gearpair.article.case.existence import Reached
+from gearpair.article.case.scoring import axis, published_kind
+from gearpair.article.case.two_rotors import two_rotor_difference
+from gearpair.article.case.verdicts import Verdict, both, grade, judge
 from gearpair.article.readings import Hypothesis
-from gearpair.article.scoring import axis, published_kind
-from gearpair.article.two_rotors import two_rotor_difference
-from gearpair.article.verdicts import Verdict, both, grade, judge
 from gearpair.bifurcations.doubling import doubling_cascade
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.bifurcations.orbits import periodic_orbit
@@ -50,7 +50,8 @@ def model_items(
 
     Examples
     --------
-    >>> from gearpair.article import PRINTED, SWAPPED, reached
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> from gearpair.article.case import reached
     >>> along = [reached([PRINTED, SWAPPED], p, 5, n_discarded=100) for p in ("mesh_frequency", "damping_ratio")]
     >>> items = model_items(PRINTED, SWAPPED, along, {"rectangle": 0.8, "sinusoid": 0.6})
     >>> [(each.item, each.verdict) for each in items if each.item in ("M1", "M5", "F14")]
@@ -150,7 +151,8 @@ def range_items(printed: Sequence[Reached], best: Sequence[Reached]) -> list[Ver
 
     Examples
     --------
-    >>> from gearpair.article import PRINTED, SWAPPED, reached
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> from gearpair.article.case import reached
     >>> printed, swapped = reached([PRINTED, SWAPPED], "damping_ratio", 5)
     >>> [(each.item, each.best) for each in range_items([printed], [swapped])]
     [('D3', 'on all of it'), ('D5', 'on all of it')]
