@@ -1,12 +1,12 @@
 """Periodic orbits, stable or not, their branches, and the folds, flips and grazings on them."""
 
 from gearpair.bifurcations._walk import End
+from gearpair.bifurcations.branch_search import find_branches
 from gearpair.bifurcations.branches import Branch, continue_orbit
 from gearpair.bifurcations.curves import BifurcationCurve, continue_bifurcation
 from gearpair.bifurcations.doubling import doubled_orbit, doubling_cascade
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.bifurcations.orbits import NewtonStatus, PeriodicOrbit, find_orbits, periodic_orbit
-from gearpair.bifurcations.search import find_branches
 from gearpair.bifurcations.structure import (
     bifurcation_table,
     cascade_table,

@@ -14,10 +14,10 @@ from gearpair.article.case.scoring import axis, published_kind
 from gearpair.article.case.two_rotors import two_rotor_difference
 from gearpair.article.case.verdicts import Verdict, both, grade, judge
 from gearpair.article.readings import Hypothesis
+from gearpair.bifurcations.branch_search import find_branches
 from gearpair.bifurcations.doubling import doubling_cascade
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.bifurcations.orbits import periodic_orbit
-from gearpair.bifurcations.search import find_branches
 from gearpair.ensembles.planes import basins
 from gearpair.ensembles.sweeps import sweep
 from gearpair.methods.runge_kutta import runge_kutta_sweep
