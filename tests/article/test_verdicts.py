@@ -12,6 +12,8 @@ from gearpair.article.case import items as article_items
 from gearpair.article.case import verdicts
 
 BOTH = [article.PRINTED, article.SWAPPED]
+BOUNDARIES = ("F2", "F4", "F6", "D4")
+MODEL = ("M1", "M2", "M4", "M5", "M6", "K1", "K2", "K5", "N3", "F14", "C4", "C5")
 FAILS, NEARLY, HOLDS = verdicts.FAILS, verdicts.NEARLY, verdicts.HOLDS
 
 
@@ -102,9 +104,10 @@ def test_the_named_bifurcations_of_the_swapped_reading(changes):
 
 
 def test_boundaries_are_judged_by_the_same_evidence_in_both_readings(changes):
-    words = {v.item: v.verdict for v in case.boundary_items(changes[article.PRINTED], changes[article.SWAPPED])}
+    found = [case.Evidence(reading, changes=changes[reading]) for reading in BOTH]
+    words = {v.item: v.verdict for v in case.judge_items(*found, BOUNDARIES)}
     assert words == {"F2": "corrected", "F4": "corrected", "F6": "corrected", "D4": "corrected"}
-    turned = {v.item: v.verdict for v in case.boundary_items(changes[article.SWAPPED], changes[article.PRINTED])}
+    turned = {v.item: v.verdict for v in case.judge_items(*found[::-1], BOUNDARIES)}
     assert turned["F4"] == turned["F2"] == turned["D4"] == "contrary"
 
 
@@ -148,23 +151,34 @@ def test_the_phase_asked_for_puts_the_bifurcation_where_it_is_published(changes)
         assert orbit.stable is stable
 
 
+def evidence(*reached, shares=None):
+    """What was found in both readings: along each published axis given, and the shares that the waves meet."""
+    along = zip(*reached, strict=True) if reached else ((), ())
+    return [case.Evidence(reading, each, shares=shares) for reading, each in zip(BOTH, along, strict=True)]
+
+
+def test_every_item_is_judged_once():
+    judged = [row[0] for row in (*article_items.TESTED, *article_items.STATED)]
+    assert sorted(judged) == sorted(statement.item for statement in published.STATEMENTS)
+
+
 def test_existence_in_the_swapped_reading_and_not_in_the_printed():
     reached = [case.reached(BOTH, p, 20, n_discarded=200) for p in ("mesh_frequency", "damping_ratio")]
-    words = {v.item: v for v in case.range_items(*zip(*reached, strict=True))}
-    assert {words[item].verdict for item in ("F3", "F5", "F10", "F11", "D3")} == {"corrected"}
+    ranges = ("F3", "F5", "F10", "F11", "D3")
+    words = {v.item: v for v in case.judge_items(*evidence(*reached), items=ranges)}
+    assert {words[item].verdict for item in ranges} == {"corrected"}
     assert words["F11"].best == "on all of it"
-    assert "D1" not in words
 
 
 def test_chaos_at_small_damping_is_a_transient():
-    d1, d2 = case.transient_items(article.PRINTED, article.SWAPPED)
+    d1, d2 = case.judge_items(*evidence(), items=("D1", "D2"))
     assert d1.verdict == d2.verdict == "refuted"
     assert d1.best == "after 30 000 periods chaotic at 0 of 5 values"
 
 
 def test_one_period_two_impact_states():
     """I4: in the swapped reading every start leads to period 1, and yet to one of two impact states."""
-    items = {v.item: v for v in case.start_items(article.PRINTED, article.SWAPPED)}
+    items = {v.item: v for v in case.judge_items(*evidence(), items=("I1", "I2", "I3", "I4", "I5", "C3"))}
     assert items["I4"].verdict == "corrected"
     assert items["I4"].best == "2 attractors, period 1: double and single_drive"
     assert "unique meaning of one period" in items["I4"].decided_by
@@ -175,7 +189,7 @@ def test_one_period_two_impact_states():
 
 def test_the_frequency_is_the_main_parameter_of_the_two():
     """C1: along the damping a carried sweep stays on period 1 in both readings, along the frequency it does not."""
-    items = {v.item: v for v in case.chaos_items(article.PRINTED, article.SWAPPED)}
+    items = {v.item: v for v in case.judge_items(*evidence(), items=("C1", "F9", "F13", "D6", "C2"))}
     assert items["C1"].verdict == "confirmed"
     assert items["C1"].best == "4 kinds of motion along the frequency, 1 along the damping at Omega_h 0.7"
     assert items["C1"].printed.endswith("1 along the damping at Omega_h 0.7")
@@ -196,7 +210,7 @@ def test_a_share_is_told_in_words():
 def test_statements_about_the_model():
     reached = [case.reached(BOTH, p, 6, n_discarded=200) for p in ("mesh_frequency", "damping_ratio")]
     shares = {"rectangle": 0.8, "sinusoid": 0.6}
-    items = {v.item: v for v in case.model_items(*BOTH, reached, shares)}
+    items = {v.item: v for v in case.judge_items(*evidence(*reached, shares=shares), items=MODEL)}
     assert items["M5"].verdict == "refuted" and "0.9464" in items["M5"].printed and "0.7556" in items["M5"].best
     assert items["F14"].verdict == "vacuous"
     assert items["K2"].verdict == "corrected"
@@ -204,7 +218,8 @@ def test_statements_about_the_model():
     assert items["K5"].verdict == items["C4"].verdict == "confirmed"
     words = {item: items[item].verdict for item in ("M1", "M2", "K1", "N3", "C5")}
     assert words == {"M1": "assumption", "M2": "definition", "K1": "assumption", "N3": "definition", "C5": "advice"}
-    turned = {v.item: v for v in case.model_items(*BOTH, reached, {"rectangle": 0.6, "sinusoid": 0.8})}
+    other = evidence(shares={"rectangle": 0.6, "sinusoid": 0.8})
+    turned = {v.item: v for v in case.judge_items(*other, items=("K5", "C4"))}
     assert turned["K5"].verdict == turned["C4"].verdict == "refuted"
 
 

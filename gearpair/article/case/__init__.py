@@ -4,6 +4,7 @@ A *protocol* is one way to draw a diagram; a *trial* is a reading drawn by a pro
 """
 
 from gearpair.article.case.boundaries import (
+    bifurcations_of,
     boundary_table,
     distance_from_bifurcations,
     drawn_boundary,
@@ -11,17 +12,7 @@ from gearpair.article.case.boundaries import (
     nearest,
 )
 from gearpair.article.case.existence import STARTS, Reached, reached, shared_boundaries
-from gearpair.article.case.items import (
-    bifurcations_of,
-    boundary_items,
-    chaos_items,
-    integrator_items,
-    model_items,
-    range_items,
-    route_items,
-    start_items,
-    transient_items,
-)
+from gearpair.article.case.items import Evidence, judge_items
 from gearpair.article.case.scoring import Match, Score, axis, published_kind, published_motions, random_tables, score
 from gearpair.article.case.search import (
     TOLERANCES,
@@ -47,6 +38,7 @@ from gearpair.article.case.two_rotors import two_rotor_difference
 from gearpair.article.case.verdicts import Verdict, count_verdicts, counter_evidence, judge, verdict_table
 
 __all__ = [
+    "Evidence",
     "Match",
     "Protocol",
     "Ranked",
@@ -63,16 +55,13 @@ __all__ = [
     "axis",
     "bifurcations_of",
     "boundaries_met",
-    "boundary_items",
     "boundary_table",
-    "chaos_items",
     "count_verdicts",
     "counter_evidence",
     "distance_from_bifurcations",
     "drawn_boundary",
-    "integrator_items",
     "judge",
-    "model_items",
+    "judge_items",
     "most_met_by_chance",
     "named_bifurcation",
     "nearest",
@@ -80,18 +69,14 @@ __all__ = [
     "published_kind",
     "published_motions",
     "random_tables",
-    "range_items",
     "ranking",
     "reached",
-    "route_items",
     "run_trials",
     "score",
     "score_by_choice",
     "score_by_start",
     "search_table",
     "shared_boundaries",
-    "start_items",
-    "transient_items",
     "two_rotor_difference",
     "verdict_table",
 ]

@@ -10,6 +10,8 @@ from gearpair.article import published
 from gearpair.article.case.scoring import REACH, axis
 from gearpair.article.case.trials import Trial
 from gearpair.article.published import Boundary
+from gearpair.article.readings import Hypothesis
+from gearpair.bifurcations.branch_search import find_branches
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.table import Table
 
@@ -143,3 +145,30 @@ def drawn_boundary(trials: Iterable[Trial], boundary: published.Boundary) -> flo
     scores = [t.frequency if boundary.parameter == "mesh_frequency" else t.damping for t in trials]
     found = [m.found for s in scores for m in s.matches if m.boundary == boundary and m.found is not None]
     return min(found, key=lambda value: abs(value - boundary.value), default=None)
+
+
+def bifurcations_of(hypothesis: Hypothesis, max_period: int = 3) -> list[Bifurcation]:
+    """The folds and flips in mesh frequency and in damping of the branches that a search finds in one reading.
+
+    Parameters
+    ----------
+    hypothesis : Hypothesis
+    max_period : int
+        The longest period followed.
+
+    Returns
+    -------
+    list of Bifurcation
+
+    Examples
+    --------
+    >>> from gearpair.article import SWAPPED
+    >>> sorted({(b.kind, b.parameter) for b in bifurcations_of(SWAPPED, max_period=1)})
+    [('flip', 'mesh_frequency'), ('fold', 'damping_ratio')]
+    """
+    osc = hypothesis.oscillator()
+    branches = [
+        *find_branches(osc, "mesh_frequency", 0.65, 1.75, max_period=max_period, n_values=5),
+        *find_branches(osc, "damping_ratio", 0.001, 0.03, max_period=max_period, n_values=3),
+    ]
+    return [b for branch in branches for b in branch.bifurcations if b.kind != "grazing"]

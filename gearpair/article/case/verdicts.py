@@ -87,9 +87,9 @@ def grade(value: float | None, stated: float, width: float) -> int:
     return HOLDS if away <= NEAR else NEARLY if away <= FAR else FAILS
 
 
-def both(item: str, texts: Sequence[str], holds: Sequence[bool], decided_by: str) -> Verdict:
-    """The verdict on an item from what the two readings give and whether it holds in each."""
-    printed, best = (HOLDS if each else FAILS for each in holds)
+def both(item: str, texts: Sequence[str], holds: Sequence[bool | int], decided_by: str) -> Verdict:
+    """The verdict on an item from what the two readings give and whether, or how far, it holds in each."""
+    printed, best = (HOLDS if each is True else int(each) for each in holds)
     return Verdict(item, texts[0], texts[1], judge(printed, best), decided_by)
 
 
