@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 import gearpair as gp
-from gearpair.motion.capture import found_in, known_attractors, number_attractors, seeds
-from gearpair.motion.datasets import settled_columns
+from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, seeds
+from gearpair.ensembles.datasets import settled_columns
 from gearpair.motion.settling import STATUSES, SettleSettings, Status, settle_batch
-from gearpair.tables import Table
+from gearpair.table import Table
 
 STARTS = 8334
 ON_ORBIT = 1e-5  # a motion that still is this near to a cycle of its label, after so long, has settled on it

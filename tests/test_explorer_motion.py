@@ -10,9 +10,9 @@ from gearpair._flow.cells import build_cells
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.walk import walk
 from gearpair.motion.trajectories import raise_unless_ok
-from tests.engines import ENGINES
-from tests.oscillators import degenerate_cases, random_case
-from tests.reference import kernel_parameters
+from tests.support.engines import ENGINES
+from tests.support.oscillators import degenerate_cases, random_case
+from tests.support.reference import kernel_parameters
 
 PERIODS = 4
 

@@ -4,12 +4,12 @@ import ast
 import importlib
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from importlinter.cli import lint_imports
 
-ROOT = Path(__file__).parents[1]
+from tests.support import ROOT
+
 LIBRARY = sorted((ROOT / "gearpair").rglob("*.py"))
 LONGEST_FILE = 400
 SHARED = {"_flow", "_checks", "_cores"}  # below every room: the kernels, and what all rooms check and run with

@@ -5,7 +5,6 @@ import os
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import nbformat
 import pytest
@@ -14,9 +13,9 @@ from papermill import inspect_notebook
 from gearpair.study.book import Book
 from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
-from tests.conftest import MEAN, write_notebook
+from tests.support import ROOT
+from tests.support.notebooks import MEAN, write_notebook
 
-ROOT = Path(__file__).parents[1]
 BOOK = Book(ROOT)
 NOTEBOOKS = sorted(
     path

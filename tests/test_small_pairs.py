@@ -2,8 +2,8 @@
 
 from gearpair.plotting.style import MOTION_COLOURS
 from tests.browser import Browser
-from tests.engines import MODULES
 from tests.explorer_pages import write_pairs_page
+from tests.support.engines import MODULES
 
 
 def test_the_small_pairs_move_and_rest(tmp_path):

@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
-from gearpair._flow.closed_form import TERMS, evaluate_jerk
+from gearpair._flow.closed_form import DEGREE, REACH, TERMS, evaluate_jerk
 from gearpair._flow.event_search import MAX_STEPS, MONOTONE, ROUNDING, certified_step
 from gearpair._flow.records import SEGMENT_COLUMNS, Segments
 from gearpair._flow.walk import EVENT_UNDECIDED, Details, walk
 from gearpair.motion.trajectories import check_start, raise_unless_ok
 from gearpair.oscillator import Oscillator
+from gearpair.table import Table
 
 
 @dataclass(frozen=True)
@@ -264,3 +265,54 @@ def _closest(piece: Segment) -> float:
     x = piece(np.linspace(0.0, piece.span, 65))
     distance = np.minimum(x - floor, ceiling - x)
     return float(distance.min()) if 0 < distance.argmin() < 64 else np.inf
+
+
+def certificate_table(pieces: Iterable[Segment]) -> Table:
+    """How many segments each certificate settles, and how many of these hold a crossing.
+
+    Parameters
+    ----------
+    pieces : iterable of Segment
+
+    Returns
+    -------
+    Table
+
+    Examples
+    --------
+    >>> from gearpair.methods import segments
+    >>> len(certificate_table(segments(Oscillator(), 1.0, 0.0)).rows)
+    3
+    """
+    kinds = [(piece.certificate, piece.crossing is not None) for piece in pieces]
+    rows = [
+        [f"{i}. {name}", sum(kind == name for kind, _ in kinds), kinds.count((name, True))]
+        for i, name in enumerate(("hull", "monotone", "steps"), start=1)
+    ]
+    return Table(["certificate", "segments", "with a crossing"], rows)
+
+
+def series_table(osc: Oscillator) -> Table:
+    """The constants of the power series and the cells that `osc` needs.
+
+    Parameters
+    ----------
+    osc : Oscillator
+
+    Returns
+    -------
+    Table
+
+    Examples
+    --------
+    >>> series_table(Oscillator()).rows[0]
+    ('degree of the series', '15')
+    """
+    neglected = REACH**TERMS / float(np.prod(np.arange(1.0, TERMS + 1)))
+    rows = [
+        ["degree of the series", f"{DEGREE}"],
+        ["reach: the most that a rate turns in a cell", f"{REACH:.1f}"],
+        ["first neglected term", f"{neglected:.0e}"],
+        ["cells in the mesh period", f"{len(osc.cells.level)}"],
+    ]
+    return Table(["of the closed form", "value"], rows)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair._checks import check_choice, check_count, check_number
 from gearpair._cores import on_all_cores
 from gearpair._flow.runge_kutta import COMPLETE, Steps, integrate_lanes
-from gearpair.motion.datasets import attributes, oscillators_along
+from gearpair.ensembles.datasets import attributes, oscillators_along
 from gearpair.motion.settling import SettleSettings, lanes_of
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
