@@ -55,10 +55,10 @@ $(BENCH_READY): $(READY)
 	@touch $@
 
 stability: $(READY)
-	@$(RUN) -m gearpair stability $(CHAPTERS)
+	@$(RUN) -m tools.stability $(CHAPTERS)
 
 accept: $(READY)
-	@$(RUN) -m gearpair accept
+	@$(RUN) -m tools.accept
 
 # Before anything is written: an interpreter that will do, and leave to write.
 CAN_START = @$(if $(PYTHON),$(PYTHON),false) -c '$(VERSION_CHECK)' || { \
@@ -78,7 +78,7 @@ define environment
 	@$(1)/bin/python -m compileall -qq -j 0 -x '/tests?/' $(1)/lib || true # a package may hold a file of another Python
 	@$(1)/bin/python -c 'import matplotlib.font_manager'
 	@echo "Compiling the kernels (a minute or two)"
-	@$(1)/bin/python -m gearpair.study.warm_up
+	@$(1)/bin/python -m tools.warm_up
 	@touch $@
 endef
 
@@ -96,7 +96,7 @@ lock:
 
 clean:
 	rm -rf _build book/chapters .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
-	find gearpair tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
+	find gearpair tools tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # The gates of the site, in a real browser, and the whole book as one PDF; both bring their own packages.
 .PHONY: check-site pdf
@@ -108,7 +108,7 @@ check-site: $(SITE_READY) book
 	@$(RUN) -m codespell_lib
 
 pdf: $(SITE_READY) book
-	@$(RUN) -m gearpair.study.pdf
+	@$(RUN) -m tools.pdf
 
 $(SITE_READY): $(READY)
 	$(CAN_START)

@@ -14,8 +14,8 @@ from typing import Any
 
 import pytest
 
-from gearpair.study.browser import find_chromium
 from gearpair.study.errors import StudyError
+from tools.browser import find_chromium
 
 ANSWER_WITHIN = 120.0  # seconds; a browser that is silent for longer hangs
 

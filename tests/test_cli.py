@@ -9,6 +9,7 @@ from gearpair.study.chapters import Chapter, Parameter
 from gearpair.study.cli import main
 from gearpair.study.estimate import work_ratio
 from tests.conftest import MEAN, write_notebook
+from tools.accept import accept
 
 
 def run(root, *words):
@@ -181,10 +182,10 @@ def test_help_exits_with_0(capsys):
 def test_accept_stores_outputs_and_finds_nothing_to_do_the_second_time(small_book, capsys):
     figure = "import matplotlib.pyplot as plt, sys\nprint('noise', file=sys.stderr)\nplt.plot([0, 1])\nplt.show()"
     path = write_notebook(small_book / "notebooks" / "small.ipynb", MEAN, figure)
-    assert run(small_book, "accept") == 0
+    assert main(["--root", str(small_book)], run=accept) == 0
     assert "new outputs stored: small" in capsys.readouterr().out
     text = path.read_text()
-    assert run(small_book, "accept") == 0
+    assert main(["--root", str(small_book)], run=accept) == 0
     assert capsys.readouterr().out == "nothing changed\n"
     assert path.read_text() == text
     assert "0.9464" in text

@@ -5,10 +5,10 @@ import pytest
 from PIL import Image
 
 from gearpair.study.book import Book
-from gearpair.study.browser import find_chromium
 from gearpair.study.errors import StudyError
 from gearpair.study.finishing import finish_site, mend
-from gearpair.study.pdf import one_document
+from tools.browser import find_chromium
+from tools.pdf import one_document
 
 THEBE = '<script>const THEBE_JS_URL = "https://example.org/thebe.js"; const other = 1</script>'
 X = r'<span class="math notranslate nohighlight">\(X\)</span>'

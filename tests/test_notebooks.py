@@ -15,6 +15,7 @@ from gearpair.study.book import Book
 from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
 from tests.conftest import MEAN, write_notebook
+from tools.accept import accept_outputs
 
 ROOT = Path(__file__).parents[1]
 BOOK = Book(ROOT)
@@ -193,8 +194,6 @@ def test_papermill_itself_stops_at_what_is_out_of_range(tmp_path, words, sentenc
 
 def test_nbval_sees_a_broken_library(small_book, tmp_path):
     """The stored outputs are compared for real: one changed constant in the library, and nbval is red."""
-    from gearpair.study.book import accept_outputs
-
     notebook = write_notebook(small_book / "notebooks" / "small.ipynb", MEAN)
     accept_outputs(Book(small_book), progress=False)
     assert nbval(notebook, ROOT).returncode == 0

@@ -11,7 +11,7 @@ from urllib.parse import unquote, urlsplit
 
 import axe_playwright_python
 
-from gearpair.study.browser import serve
+from tools.browser import serve
 
 AXE = next(iter(axe_playwright_python.__path__)) + "/axe.min.js"
 PHONE = {"width": 360, "height": 740}
