@@ -49,9 +49,7 @@ bench: $(READY)
 
 $(BENCH_READY): $(READY)
 	@echo "Adding the bench extra to $(VENV)"
-	@$(RUN) $(PIP_INSTALL) --retries 1 --constraint requirements.lock \
-		$$($(RUN) -c 'import tomllib; \
-		print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["bench"])')
+	@$(call install,$(VENV)) --constraint requirements.lock $(call extra,bench)
 	@touch $@
 
 stability: $(READY)
@@ -65,19 +63,23 @@ CAN_START = @$(if $(PYTHON),$(PYTHON),false) -c '$(VERSION_CHECK)' || { \
 	echo "gearpair needs Python 3.11 or newer; found $$($(or $(PYTHON),python3) --version 2>&1)." \
 	"Install one, or name it: make PYTHON=/path/to/python3.11" >&2; exit 1; }; \
 	test -w . || { echo "Nothing can be written in $(CURDIR): clone it to a directory of your own" >&2; exit 1; }
-PIP_INSTALL = -m pip install --quiet --disable-pip-version-check
 
-# $(call environment,WHERE,LOCK): the packages, the library, its kernels. pip would compile ten thousand files of the
-# packages on one core; this takes all cores, and leaves out the packages' own tests.
+# $(call install,WHERE) PACKAGES: by uv, else by pip; $(call extra,NAME): what an extra of the project asks for.
+install = $(PYTHON) tools/uv.py $(1) pip install
+extra = $$($(RUN) -c 'import tomllib; \
+	print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["$(1)"])')
+
+# $(call environment,WHERE,LOCK): the packages, the library, its kernels. The packages' files are compiled here, by all
+# cores and without the packages' own tests, and not by the processes that first need them.
 define environment
 	$(CAN_START)
-	@echo "Setting up $(1) from $(2) (some minutes the first time)"
+	@echo "Setting up $(1) from $(2)"
 	@$(PYTHON) -m venv $(1)
-	@$(1)/bin/python $(PIP_INSTALL) --no-compile --requirement $(2)
-	@$(1)/bin/python $(PIP_INSTALL) --no-deps --no-build-isolation --editable .
+	@$(call install,$(1)) --requirement $(2)
+	@$(call install,$(1)) --no-deps --no-build-isolation --editable .
 	@$(1)/bin/python -m compileall -qq -j 0 -x '/tests?/' $(1)/lib || true # a package may hold a file of another Python
 	@$(1)/bin/python -c 'import matplotlib.font_manager'
-	@echo "Compiling the kernels (a minute or two)"
+	@echo "Compiling the kernels (a minute)"
 	@$(1)/bin/python -m tools.warm_up
 	@touch $@
 endef
@@ -87,12 +89,12 @@ $(READY): requirements.lock pyproject.toml
 
 # The lock holds for every platform and for Python 3.11 and newer; pins that are already in it are kept where they
 # still fit (delete the file first to take the newest of everything).
+LOCK = $(PYTHON) tools/uv.py $(VENV)-lock pip compile pyproject.toml --universal --python-version 3.11 \
+	--no-emit-index-url --no-emit-find-links --annotation-style line
+
 lock:
 	@$(PYTHON) -m venv $(VENV)-lock
-	@$(VENV)-lock/bin/python $(PIP_INSTALL) uv
-	$(VENV)-lock/bin/uv pip compile pyproject.toml --extra book --extra test --universal --python-version 3.11 \
-		--quiet --no-emit-index-url --no-emit-find-links --annotation-style line \
-		--custom-compile-command "make lock" --output-file requirements.lock
+	@$(LOCK) --extra book --extra test --custom-compile-command "make lock" --output-file requirements.lock
 
 clean:
 	rm -rf _build book/chapters .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
@@ -113,9 +115,7 @@ pdf: $(SITE_READY) book
 $(SITE_READY): $(READY)
 	$(CAN_START)
 	@echo "Adding the site extra to $(VENV)"
-	@$(RUN) $(PIP_INSTALL) --constraint requirements.lock \
-		$$($(RUN) -c 'import tomllib; \
-		print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["site"])')
+	@$(call install,$(VENV)) --constraint requirements.lock $(call extra,site)
 	@touch $@
 
 .PHONY: check-wheel
@@ -124,8 +124,8 @@ check-wheel: $(READY)
 	@rm -rf dist $(VENV)-wheel
 	@$(RUN) -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation --wheel-dir dist .
 	@$(PYTHON) -m venv $(VENV)-wheel
-	@$(VENV)-wheel/bin/python $(PIP_INSTALL) --no-compile dist/*.whl
-	@$(RUN) tests/check_wheel.py $(VENV)-wheel/bin/python
+	@$(call install,$(VENV)-wheel) dist/*.whl
+	@$(RUN) -m tools.check_wheel $(VENV)-wheel/bin/python
 	@echo "The wheel works by itself: $$(ls dist)"
 
 # The course (notebooks/assignments) has an environment of its own, since nbgrader brings a notebook server.
@@ -142,6 +142,5 @@ $(TEACH_READY): requirements-teach.lock pyproject.toml
 	$(call environment,$(TEACH_VENV),requirements-teach.lock)
 
 lock-teach: lock
-	$(VENV)-lock/bin/uv pip compile pyproject.toml --extra teach --constraint requirements.lock --universal \
-		--python-version 3.11 --quiet --no-emit-index-url --no-emit-find-links --annotation-style line \
+	@$(LOCK) --extra teach --constraint requirements.lock \
 		--custom-compile-command "make lock-teach" --output-file requirements-teach.lock
