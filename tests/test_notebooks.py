@@ -3,6 +3,7 @@
 import ast
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -204,13 +205,28 @@ def test_nbval_sees_a_broken_library(small_book, tmp_path):
         source = path.read_text(encoding="utf-8")
         copy.write_text(source.replace("(1.0 + a, 1.0 - b)", "(1.0 + a, 1.001 - b)"), encoding="utf-8")
     result = nbval(notebook, tmp_path / "broken")
-    assert result.returncode == 1
+    assert result.returncode == 1, result.stdout
     assert "0.9464" in result.stdout and "0.9467" in result.stdout
 
 
+@pytest.mark.parametrize(
+    ("cell", "sentence"),
+    [
+        ("import warnings; warnings.warn('careful')", "Cell wrote to stderr: a warning, or a progress bar"),
+        ("1 / 0", "chapter small failed in code cell 2 (cell 3 of the notebook): ZeroDivisionError: division by zero"),
+    ],
+)
+def test_a_warning_and_an_error_of_a_chapter_are_seen(small_book, cell, sentence):
+    notebook = write_notebook(small_book / "notebooks" / "small.ipynb", cell)
+    result = nbval(notebook, ROOT)
+    assert result.returncode == 1
+    assert sentence in result.stdout
+
+
 def nbval(notebook, library):
-    """Run nbval on `notebook` as `make test` does, with the package found in the directory `library`."""
-    command = [sys.executable, "-m", "pytest", "--nbval", "--nbval-current-env", "-p", "no:cacheprovider"]
+    """Have `notebook` compared as `make test` does, with the package found in the directory `library`."""
+    shutil.copy(ROOT / "notebooks" / "conftest.py", notebook.parent)
+    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"]
     command += ["-c", "/dev/null", "--rootdir", str(notebook.parent), str(notebook)]
     environment = {**os.environ, "PYTHONPATH": str(library)}
     return subprocess.run(command, env=environment, cwd=notebook.parent, capture_output=True, text=True)

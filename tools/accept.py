@@ -47,6 +47,7 @@ def stable_notebook(source: Path, executed: nbformat.NotebookNode) -> nbformat.N
     notebook = nbformat.read(source, as_version=4)
     notebook.metadata = nbformat.from_dict(
         {
+            **{key: value for key, value in notebook.metadata.items() if key == "gearpair"},  # how long it takes
             "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
             "language_info": {"name": "python"},
         }

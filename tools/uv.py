@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 UV = "uv==0.13.9"  # installs in seconds what takes pip a minute
-PIP = ["-m", "pip", "--quiet", "--disable-pip-version-check"]
+PIP = ["-m", "pip", "--quiet", "--quiet", "--disable-pip-version-check"]  # errors are told
 # uv reads nothing of pip's configuration. Where a machine takes its packages from is handed on, and how pip chooses
 # among several places; where pip separates by blanks, uv takes what stands here.
 HANDED_ON = {
