@@ -104,6 +104,7 @@ clean:
 .PHONY: check-site pdf
 SITE_ARGS ?=
 SITE_READY := $(VENV)/.ready-site
+AXE := axe-core@4.14.1
 
 check-site: $(SITE_READY) book
 	@GEARPAIR_SITE=_build/html $(RUN) -m pytest tests/site -p no:nbval --override-ini addopts= $(SITE_ARGS)
@@ -116,6 +117,7 @@ $(SITE_READY): $(READY)
 	$(CAN_START)
 	@echo "Adding the site extra to $(VENV)"
 	@$(call install,$(VENV)) --constraint requirements.lock $(call extra,site)
+	@npm install --silent --no-save --no-audit --no-fund --prefix $(VENV) $(AXE)
 	@touch $@
 
 .PHONY: check-wheel

@@ -7,6 +7,9 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
+from gearpair.study.errors import StudyError
+from tools.browser import chromium
+
 # By hand, with packages that the other tests do without: `make check-site` names the site that it checks.
 collect_ignore = ["finite_elements"] if "GEARPAIR_SITE" in os.environ else ["finite_elements", "site"]
 FIRST = ("test_layers.py", "test_style.py")
@@ -15,6 +18,16 @@ FIRST = ("test_layers.py", "test_style.py")
 def pytest_collection_modifyitems(items):
     """The layers are checked before anything else, then the style."""
     items.sort(key=lambda item: FIRST.index(item.path.name) if item.path.name in FIRST else len(FIRST))
+
+
+@pytest.fixture(scope="module")  # while it lives, nothing else in the process can use asyncio
+def browser():
+    """A browser for the pages of one module; without one its tests are skipped."""
+    try:
+        with chromium() as started:
+            yield started
+    except StudyError as error:
+        pytest.skip(str(error))
 
 
 PARAMETERS = "a: float = 0.116  # stiffness added in double contact"

@@ -1,6 +1,6 @@
 """The explorer's JavaScript computes what gearpair computes: states, impacts, settled motions, spectra, diagrams."""
 
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -10,17 +10,20 @@ from gearpair._flow.cells import build_cells
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.tangent import march_tangent
 from gearpair.motion.trajectories import raise_unless_ok
-from tests.engines import ENGINES
+from tests.engines import run_in_chromium, run_in_node
 from tests.oscillators import degenerate_cases, random_case
 from tests.reference import kernel_parameters
 
 PERIODS = 4
 
 
-@pytest.fixture(scope="module", params=ENGINES)
+@pytest.fixture(scope="module", params=["node", "chromium"])
 def run(request):
-    ENGINES[request.param]("() => 0", None)  # where it is missing, skip before anything is computed
-    return ENGINES[request.param]
+    """Runs a function of the modules; skips where the engine is missing, before anything is computed."""
+    if request.param == "chromium":
+        return partial(run_in_chromium, request.getfixturevalue("browser"))
+    run_in_node("() => 0", None)
+    return run_in_node
 
 
 def as_json(osc: gp.Oscillator, x: float = 1.0, v: float = 0.0) -> dict:
