@@ -28,6 +28,10 @@ TOGGLE = "<script>var togglebuttonSelector = '.toggle';</script>"
         ('<link rel="preload" as="font" href="a.woff2" />\n<link rel="icon">', '<link rel="icon">'),
         ('<th style="x"></th><th>m</th>', '<td style="x"></td><th>m</th>'),
         ('<i id="search-input"><b id="search-input">', '<i id="search-input"><b id="search-field">'),
+        (
+            '<button class="btn search-button-field" title="Search" aria-label="Search" id="x">',
+            '<button class="btn search-button-field" title="Search" id="x">',
+        ),
         ("<i>Show code cell source</i><b>Hide code cell outputs</b>", "<i>Show the code</i><b>Hide the result</b>"),
         ('<section id="solution-content">a</section>', "<section>a</section>"),
         (
