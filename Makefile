@@ -2,11 +2,13 @@
 #   make book         execute the chapters that changed and build the site at _build/html/index.html
 #   make test         run every test
 # Others:
+#   make test-quick   the tests that are not marked slow, in about a minute
 #   make teach        grade the whole course headless, in an environment of its own: reference solutions, mistakes,
 #                     hostile submissions, a class of forty
 #   make pdf          build the book, then print it to _build/gearpair.pdf (needs a Chromium, see check-site)
-#   make check-site   build the book, then open every page and check it; needs Java and a Chromium on the PATH (or
+#   make check-site   build the book, then open every page and check it; needs Java, npm and a Chromium on the PATH (or
 #                     CHROMIUM=/path/to/it); SITE_ARGS="-k links" for some of the gates
+#   make check-all    all of the above and below to their ends, but for what writes into the checkout: accept, lock-teach
 #   make check-wheel  build the wheel, install it alone in an empty environment, run the README's example there
 #   make bench        measure accuracy and time on this machine, beside other integrators (some minutes; installs the
 #                     bench extra first, and does without where it cannot be had); BENCH_ARGS=--quick for less
@@ -18,7 +20,7 @@
 # Choose an interpreter with PYTHON=python3.12; pass options to pytest with PYTEST_ARGS="-k layers".
 
 .DEFAULT_GOAL := help
-.PHONY: help book test bench stability accept lock clean
+.PHONY: help book test test-quick bench stability accept lock clean check-all
 .DELETE_ON_ERROR:
 
 VERSION_CHECK := import sys; sys.exit(sys.version_info < (3, 11))
@@ -41,6 +43,14 @@ book: $(READY)
 
 test: $(READY)
 	@$(RUN) -m pytest $(PYTEST_ARGS)
+
+test-quick: $(READY)
+	@$(RUN) -m pytest $(PYTEST_ARGS) -m "not slow"
+
+check-all:
+	@$(MAKE) --no-print-directory test teach check-site pdf check-wheel
+	@$(MAKE) --no-print-directory bench BENCH_ARGS=--quick
+	@$(MAKE) --no-print-directory stability CHAPTERS="library method"
 
 bench: $(READY)
 	@$(MAKE) --no-print-directory --silent $(BENCH_READY) || \
