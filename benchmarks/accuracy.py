@@ -8,7 +8,7 @@ from math import inf, isfinite
 
 import gearpair as gp
 from benchmarks.methods import CHAOTIC, Method
-from tests.reference import Reference, mpmath_period
+from tests.support.reference import Reference, mpmath_period
 
 PROMISED = 1e-13  # of max(1, |state|) times the map's own amplification of errors
 

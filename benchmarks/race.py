@@ -8,7 +8,7 @@ from time import perf_counter
 
 from benchmarks.accuracy import Accuracy, OnePeriod
 from benchmarks.methods import CHAOTIC, Method
-from gearpair.tables import Table
+from gearpair.table import Table
 
 
 def race(methods: Sequence[Method], starts: Sequence[OnePeriod], rounds: int) -> list[list[float]]:

@@ -10,7 +10,7 @@ from numba import config
 
 import gearpair as gp
 from benchmarks.jobs import JOBS, Measured, python, run_apart
-from gearpair.tables import Table
+from gearpair.table import Table
 
 VALUES = (100, 400, 1000)
 SIDES = (100, 200, 400)

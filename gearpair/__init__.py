@@ -1,13 +1,13 @@
 """Nonlinear dynamics of a spur gear pair with backlash and time-varying mesh stiffness.
 
 Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`. What is not here is in the folder that
-its subject names: `teeth`, `motion`, `bifurcations`, `design`, `methods`, `article`, `plotting`; tables in `tables`.
+its subject names: `teeth`, `motion`, `ensembles`, `bifurcations`, `design`, `methods`, `article`, `plotting`.
 """
 
 import importlib
 from typing import Any
 
-from gearpair import article, bifurcations, design, methods, motion, tables, teeth
+from gearpair import article, bifurcations, design, ensembles, methods, motion, teeth
 from gearpair.article import published
 from gearpair.bifurcations import (
     Bifurcation,
@@ -20,24 +20,22 @@ from gearpair.bifurcations import (
     periodic_orbit,
 )
 from gearpair.drive import GearDrive
+from gearpair.ensembles import basins, parameter_map, sweep
 from gearpair.motion import (
     ImpactState,
     Status,
     SteadyState,
     Trajectory,
-    basins,
     impact_state,
     lyapunov_exponents,
-    parameter_map,
     spectrum,
     steady_state,
     stroboscopic_map,
-    sweep,
     trajectory,
 )
 from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
-from gearpair.tables import Table
+from gearpair.table import Table
 from gearpair.teeth import SpurPair, mesh_stiffness
 
 __all__ = [
@@ -59,6 +57,7 @@ __all__ = [
     "continue_bifurcation",
     "continue_orbit",
     "design",
+    "ensembles",
     "find_branches",
     "find_orbits",
     "impact_state",
@@ -74,7 +73,6 @@ __all__ = [
     "steady_state",
     "stroboscopic_map",
     "sweep",
-    "tables",
     "teeth",
     "trajectory",
 ]

@@ -202,7 +202,7 @@ class Oscillator:
 
     @cached_property
     def cells(self) -> Cells:
-        """The tables that the kernels march over."""
+        """The tables that the kernels walk over."""
         return build_cells(self.flow_parameters)
 
 

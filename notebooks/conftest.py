@@ -19,6 +19,8 @@ from gearpair.study.chapters import read_chapter
 from gearpair.study.errors import StudyError
 from gearpair.study.side_by_side import execute_all
 
+collect_ignore = ["assignments"]  # `make teach` has them
+
 
 def pytest_collect_file(file_path, parent):
     if file_path.suffix == ".ipynb" and not parent.config.option.nbval:

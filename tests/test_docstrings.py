@@ -5,7 +5,18 @@ import inspect
 
 import pytest
 
-ROOMS = ("teeth", "motion", "bifurcations", "design", "methods", "article", "plotting", "teaching", "tables")
+ROOMS = (
+    "teeth",
+    "motion",
+    "ensembles",
+    "bifurcations",
+    "design",
+    "methods",
+    "article",
+    "article.case",
+    "plotting",
+    "teaching",
+)
 
 
 def public_functions(room):

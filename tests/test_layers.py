@@ -4,12 +4,12 @@ import ast
 import importlib
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from importlinter.cli import lint_imports
 
-ROOT = Path(__file__).parents[1]
+from tests.support import ROOT
+
 LIBRARY = sorted((ROOT / "gearpair").rglob("*.py"))
 LONGEST_FILE = 400
 SHARED = {"_flow", "_checks", "_cores"}  # below every room: the kernels, and what all rooms check and run with
@@ -30,7 +30,7 @@ def test_importing_the_library_is_quick():
 @pytest.mark.parametrize("path", sorted((ROOT / "gearpair" / "_flow").rglob("*.py")), ids=lambda path: path.name)
 def test_kernels_import_only_numpy_numba_and_math(path):
     # These leave nothing to run inside a kernel; the last two say once that a strange numba cannot cache.
-    declarations = {"__future__", "functools", "hashlib", "os", "pathlib", "typing", "warnings"}
+    declarations = {"__future__", "collections", "functools", "hashlib", "os", "pathlib", "typing", "warnings"}
     allowed = {"gearpair._flow", "math", "numba", "numpy", *declarations}
     modules = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

@@ -6,7 +6,6 @@ import re
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import nbformat
 import pytest
@@ -15,10 +14,10 @@ from papermill import inspect_notebook
 from gearpair.study.book import Book
 from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
-from tests.conftest import MEAN, write_notebook
+from tests.support import ROOT
+from tests.support.notebooks import MEAN, write_notebook
 from tools.accept import accept_outputs
 
-ROOT = Path(__file__).parents[1]
 BOOK = Book(ROOT)
 NOTEBOOKS = sorted(
     path

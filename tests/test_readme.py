@@ -1,11 +1,10 @@
 """The README's examples are true."""
 
 import re
-from pathlib import Path
 
 from gearpair.study.book import Book
+from tests.support import ROOT
 
-ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 

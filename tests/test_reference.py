@@ -1,9 +1,9 @@
 """The reference has a place for every public module and folder of the library."""
 
 import re
-from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+from tests.support import ROOT
+
 NOT_FOR_READERS = {"study", "__main__"}  # the command line and the building of the book
 
 

@@ -17,8 +17,19 @@ from docutils.statemachine import StringList
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-MODULES = ("oscillator", "stiffness", "drive", "tables", "parameters")
-FOLDERS = ("teeth", "motion", "bifurcations", "methods", "design", "article", "plotting", "teaching")
+MODULES = ("oscillator", "stiffness", "drive", "table", "parameters")
+FOLDERS = (
+    "teeth",
+    "motion",
+    "ensembles",
+    "bifurcations",
+    "methods",
+    "design",
+    "article",
+    "article.case",
+    "plotting",
+    "teaching",
+)
 
 
 def public_names(module: ModuleType) -> list[str]:

@@ -2,12 +2,20 @@
 
 import os
 import warnings
+from collections.abc import Callable
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
+from typing import Any, TypeVar
 
+import numpy as np
 from numba import njit
 from numba.core.options import DefaultOptions
+from numpy.typing import NDArray
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
 
 # Multiply-adds may be fused, unless GEARPAIR_FMA=0 asks for the rounding of a processor that has none; nothing is
 # reordered, and a division by zero gives inf instead of raising.
@@ -24,22 +32,22 @@ SOURCES = sha256(b"".join(path.read_bytes() for path in sorted(Path(__file__).pa
 SOURCES += "" if FUSED else "-unfused"
 
 
-def kernel(function):
+def kernel(function: Function) -> Function:
     """Compile a function of numbers and arrays that returns numbers alone."""
     return compiled_once(function, UNCOUNTED)
 
 
-def allocating_kernel(function):
+def allocating_kernel(function: Function) -> Function:
     """`kernel` for a function that makes arrays, returns some, or calls one that returns some."""
     return compiled_once(function, COUNTED)
 
 
-def inlined_kernel(function):
+def inlined_kernel(function: Function) -> Function:
     """`kernel`, always inlined, for what runs once an event."""
     return compiled_once(function, UNCOUNTED | {"forceinline": True})
 
 
-def compiled_once(function, options):
+def compiled_once(function: Function, options: dict[str, Any]) -> Function:
     """Compile `function` at its first call, or load what an earlier process compiled from the same sources."""
     options = OPTIONS | options
     try:
@@ -56,7 +64,7 @@ def compiled_once(function, options):
     return compiled
 
 
-def _name_cache_after_sources(compiled):
+def _name_cache_after_sources(compiled: Any) -> None:
     """Put `SOURCES` into the names of the files that `compiled` is cached in: private parts of numba."""
     from numba.core.caching import IndexDataCacheFile
 
@@ -68,7 +76,7 @@ def _name_cache_after_sources(compiled):
 
 
 @cache
-def _say_uncached():
+def _say_uncached() -> None:
     """Once in a process: a kernel that cannot be told from a stale one is compiled anew."""
     warnings.warn(
         "this numba keeps compiled code in another way than gearpair knows: the kernels work, but every process "

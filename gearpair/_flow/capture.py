@@ -17,12 +17,12 @@ the right side grows faster than W: all that starts within r converges to the cy
 
 import numpy as np
 
-from ._kernel import allocating_kernel, kernel
-from .cells import WIDTH
-from .closed_form import TERMS, evaluate
-from .event_search import INSIDE
-from .march import OK, first_region, next_segment, region_after
-from .tangent import apply, march_tangent
+from ._kernel import Array, allocating_kernel, kernel
+from .cells import Cells
+from .growth import Growth
+from .newton import derivative
+from .tangent import apply, set_identity
+from .walk import OK, Details, walk
 
 # Columns of a neighbourhood: its centre, its form (QXX dx^2 + 2 QXV dx dv + QVV dv^2 <= 1) and whose it is.
 X, V, QXX, QXV, QVV, OWNER = range(6)
@@ -37,7 +37,7 @@ LEAST = 1e-6  # a smaller neighbourhood says no more than a return does
 
 
 @kernel
-def inside(neighbourhoods, n, x, v):
+def inside(neighbourhoods: Array, n: int, x: float, v: float) -> int:
     """The first of `n` neighbourhoods that holds (x, v), or -1."""
     for i in range(n):
         row = neighbourhoods[i]
@@ -48,48 +48,58 @@ def inside(neighbourhoods, n, x, v):
 
 
 @allocating_kernel
-def surround(cells, x, v, period, owner, rows, series):
+def surround(cells: Cells, x: float, v: float, period: int, owner: float, rows: Array, series: Array) -> bool:
     """Certify a neighbourhood of each section point of the stable cycle through (x, v): whether there are any."""
     steps = np.empty((period, 2, 2))
     for i in range(period):
         rows[i, X], rows[i, V], rows[i, OWNER] = x, v, owner
-        step = steps[i]
-        step[0, 0], step[0, 1], step[1, 0], step[1, 1] = 1.0, 0.0, 0.0, 1.0
-        status, x, v = march_tangent(cells, x, v, 1, step, series)
+        status, x, v = derivative(cells, x, v, 1, steps[i], series)
         if status != OK:
             return False
-    forms = np.empty((period + 1, 3))
-    factors = np.empty(period)
+    forms, factors = np.empty((period + 1, 3)), np.empty(period)
     if not contracting_norms(steps, forms, factors):
         return False
-    radii = np.empty(RADII)
-    radii[0] = LARGEST
+    radii = np.full(RADII, LARGEST)
     for k in range(1, RADII):
         radii[k] = RATIO * radii[k - 1]
     bounds = np.empty((period + 1, RADII))
     for parts in PARTS:
         bounds[0] = radii
-        limits = radii / np.prod(factors)
-        for i in range(period):
-            bounds[i + 1] = bounds[i]
-            grow(cells, rows[i, X], rows[i, V], forms[i], parts, limits, bounds[i + 1], series)
-            bounds[i + 1] *= factors[i]
-            limits *= factors[i]
+        if not grow_around(cells, rows, forms, factors, parts, bounds, series):
+            return False
         for k in range(RADII):
             if radii[k] > LEAST and bounds[period, k] < (1.0 - 1e-6) * radii[k]:
                 for i in range(period):
-                    scale = 1.0 / bounds[i, k] ** 2
-                    rows[i, QXX], rows[i, QXV], rows[i, QVV] = (
-                        forms[i, 0] * scale,
-                        forms[i, 1] * scale,
-                        forms[i, 2] * scale,
-                    )
+                    rows[i, QXX : QVV + 1] = forms[i] * (1.0 / bounds[i, k] ** 2)
                 return True
     return False
 
 
+@allocating_kernel
+def grow_around(
+    cells: Cells, rows: Array, forms: Array, factors: Array, parts: int, bounds: Array, series: Array
+) -> bool:
+    """Let the first row of `bounds` grow around the cycle, a row a mesh period: whether it could be followed.
+
+    A bound beyond its limit cannot come back smaller than it began, and becomes infinite.
+    """
+    flow, before = np.empty((2, 2)), np.empty((2, 2))
+    limits = bounds[0] / np.prod(factors)
+    for i in range(len(factors)):
+        set_identity(flow)
+        bounds[i + 1] = bounds[i]
+        growth = Growth(flow, before, forms[i], parts, limits, bounds[i + 1])
+        details = Details(None, None, None, None, growth)
+        status, _x, _v = walk(cells, rows[i, X], rows[i, V], 1, series, None, None, details)
+        if status != OK:
+            return False
+        bounds[i + 1] *= factors[i]
+        limits *= factors[i]
+    return True
+
+
 @kernel
-def transform(form, m):
+def transform(form: Array | tuple[float, float, float], m: Array) -> tuple[float, float, float]:
     """The form ``m' Q m`` as (xx, xv, vv)."""
     a, b, c = form
     xx = a * m[0, 0] ** 2 + 2.0 * b * m[0, 0] * m[1, 0] + c * m[1, 0] ** 2
@@ -99,7 +109,7 @@ def transform(form, m):
 
 
 @allocating_kernel
-def contracting_norms(steps, forms, factors):
+def contracting_norms(steps: Array, forms: Array, factors: Array) -> bool:
     """Forms Q_i with ``S_i' Q_(i+1) S_i <= factors_i^2 Q_i``, all factors below 1: whether there are any.
 
     They solve ``Q_i = 1 + S_i' Q_(i+1) S_i / g^2`` around the cycle.
@@ -135,108 +145,3 @@ def contracting_norms(steps, forms, factors):
         factors[i] = g * np.sqrt(1.0 - 1.0 / largest)
     forms[0, 0], forms[0, 1], forms[0, 2] = form
     return form[0] < 1e12 and form[2] < 1e12
-
-
-@allocating_kernel
-def grow(cells, x, v, form, parts, limits, bounds, series):
-    """Let the bounds W of several radii, largest first, grow over the mesh period from (x, v) of the cycle.
-
-    A bound beyond its limit cannot come back smaller than it began, and becomes infinite.
-    """
-    s = np.eye(2)
-    largest = np.sum(bounds == np.inf)  # the first finite bound
-    region = first_region(cells, x, v)
-    for j in range(cells.level.size):
-        t = 0.0
-        while True:
-            outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
-            start = s.copy()
-            if grow_segment(cells, j, region, duration, series, start, s, form, 1, bounds[largest:]):
-                grow_segment(cells, j, region, duration, series, start, s, form, parts, bounds[largest:])
-                while largest < len(bounds) and bounds[largest] > limits[largest]:
-                    bounds[largest] = np.inf
-                    largest += 1
-            if outcome == INSIDE:
-                break
-            t += duration
-            region = region_after(region, x)
-
-
-@allocating_kernel
-def grow_segment(cells, j, region, duration, series, start, s, form, parts, bounds):
-    """`grow` over one segment of cell `j`; `s` becomes the variational flow at its end, from `start`.
-
-    Only one part is tried for whether any bound grows at all: where one might, nothing is done and True returned.
-    """
-    width, level = cells.clock[j, WIDTH], cells.level[j]
-    basis = cells.bases[level, abs(region)]
-    stiffness = -2.0 * cells.bases[level, 1, 0, 2] / width**2
-    zeta, own = cells.damping_ratio, stiffness * abs(region)
-    gap, bend, alpha, alpha_v, beta, beta_x = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    before, jerk = 0.0, jerk_bound(series, width)
-    for part in range(parts + 1):
-        at = duration * np.sin(0.5 * np.pi * part / parts) ** 2
-        p, _dp, ddp = evaluate(series, at)
-        xx, vx, _ = evaluate(basis[0], at)
-        xv, vv, _ = evaluate(basis[1], at)
-        vx, vv = vx / width, vv / width
-        for k in range(2):
-            s[0, k] = xx * start[0, k] + xv * start[1, k]
-            s[1, k] = vx * start[0, k] + vv * start[1, k]
-        gap1 = max(abs(p) - 1.0 if region != 0 else 1.0 - abs(p), 0.0)
-        bend1 = abs(ddp) / width**2
-        alpha1, alpha_v1, beta1, beta_x1 = gains(s, form)
-        if part > 0:
-            h = (at - before) * width
-            # Between two points a curve is off its chord by at most h^2 / 8 times its second derivative, taken here
-            # from the ends and, for the cycle, with the most that its jerk can add.
-            slack = 1.1 * h * h / 8.0
-            sag = slack * (max(bend, bend1) + h * jerk)
-            a = max(alpha, alpha1) + slack * (own * max(alpha, alpha1) + 2.0 * zeta * max(alpha_v, alpha_v1))
-            b = max(beta, beta1) + slack * (
-                2.0 * zeta * max(beta_x, beta_x1) + abs(4.0 * zeta * zeta - own) * max(beta, beta1)
-            )
-            for k in range(len(bounds)):
-                reach = a * bounds[k]
-                if reach <= min(gap, gap1) - sag:
-                    break  # and none of the smaller ones
-                if parts == 1:
-                    return True
-                excess = ramp(reach, gap - sag, gap1 - sag) - ramp(0.0, gap - sag, gap1 - sag)
-                rate = h * b * stiffness
-                bounds[k] = bounds[k] + rate * excess / (1.0 - rate * a) if rate * a < 1.0 else np.inf
-        before, gap, bend, alpha, alpha_v, beta, beta_x = at, gap1, bend1, alpha1, alpha_v1, beta1, beta_x1
-    return False
-
-
-@kernel
-def jerk_bound(series, width):
-    """A bound of |X'''| over the segment of a power series."""
-    total = 0.0
-    for n in range(TERMS - 1, 2, -1):
-        total += n * (n - 1) * (n - 2) * abs(series[n])
-    return total / width**3
-
-
-@kernel
-def gains(s, form):
-    """|first row of S|, |second row of S| in the dual norm; |S^-1 (0, 1)'|, |S^-1 (1, 0)'| in the norm."""
-    a, b, c = form
-    determinant = a * c - b * b
-    alpha = np.sqrt((c * s[0, 0] ** 2 - 2.0 * b * s[0, 0] * s[0, 1] + a * s[0, 1] ** 2) / determinant)
-    alpha_v = np.sqrt((c * s[1, 0] ** 2 - 2.0 * b * s[1, 0] * s[1, 1] + a * s[1, 1] ** 2) / determinant)
-    inverse = 1.0 / (s[0, 0] * s[1, 1] - s[0, 1] * s[1, 0])
-    beta = inverse * np.sqrt(a * s[0, 1] ** 2 - 2.0 * b * s[0, 1] * s[0, 0] + c * s[0, 0] ** 2)
-    beta_x = inverse * np.sqrt(a * s[1, 1] ** 2 - 2.0 * b * s[1, 1] * s[1, 0] + c * s[1, 0] ** 2)
-    return alpha, alpha_v, beta, beta_x
-
-
-@kernel
-def ramp(c, a, b):
-    """The mean of (c - l)_+ where l runs linearly from a to b."""
-    low, high = min(a, b), max(a, b)
-    if c <= low:
-        return 0.0
-    if c >= high:
-        return c - 0.5 * (a + b)
-    return 0.5 * (c - low) ** 2 / (high - low)

@@ -2,11 +2,11 @@
 
 On a cell that stays in one region (coast-side contact, free flight, drive-side contact) the state at
 its end is an affine function of the state at its start. These maps, with the constants that certify
-that no crossing happens inside, are computed once per oscillator; the march then needs a few
+that no crossing happens inside, are computed once per oscillator; the walk then needs a few
 multiply-adds a cell.
 
 Higher harmonics of the transmission error turn faster, so the cells are narrower. Those that would be one cell without
-them form a *block* with maps and constants of its own: where a block certainly stays in one region the march takes
+them form a *block* with maps and constants of its own: where a block certainly stays in one region the walk takes
 it in one step, and the harmonics cost nothing there.
 """
 
@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._kernel import allocating_kernel, kernel
+from ._kernel import Array, Integers, allocating_kernel, kernel
 from .closed_form import (
     AMPLITUDE,
     DEGREE,
@@ -49,36 +49,36 @@ class Parameters(NamedTuple):
     error_phase: float
     damping_ratio: float
     mesh_frequency: float
-    edges: np.ndarray  # (n_levels + 1,), from 0 to 1
-    levels: np.ndarray  # (n_levels,)
-    harmonics: np.ndarray  # (n, 3): order, amplitude and phase of what the error has besides its first harmonic
+    edges: Array  # (n_levels + 1,), from 0 to 1
+    levels: Array  # (n_levels,)
+    harmonics: Array  # (n, 3): order, amplitude and phase of what the error has besides its first harmonic
 
 
 class Cells(NamedTuple):
-    """One oscillator, ready to march; see the module's text. Regions are indexed 0, 1, 2 for -1, 0, 1."""
+    """One oscillator, ready to be walked through; see the module's text. Regions are indexed 0, 1, 2 for -1, 0, 1."""
 
     force: float
     amplitude: float  # A = F_ah Omega^2
     phase_per_period: float  # 2 pi, of the forcing's first harmonic
     start_force: float  # the whole forcing at the start of a mesh period
     start_rate: float  # and its rate over Omega
-    clock: np.ndarray  # (n_cells, 4)
-    level: np.ndarray  # (n_cells,) index of the stiffness level
-    maps: np.ndarray  # (n_cells, 3, COLUMNS)
-    bases: np.ndarray  # (n_levels, 2, 5, TERMS), free flight and contact
-    fourths: np.ndarray  # (n_levels, 2, 5) bounds of their fourth derivatives
-    forced: np.ndarray  # (n_cells, 2, TERMS) responses from rest to the higher harmonics; no rows without these
-    forced_fourths: np.ndarray  # (n_cells, 2) bounds of their fourth derivatives
-    blocks: np.ndarray  # (n_blocks + 1,) first cell of each block
-    block_width: np.ndarray  # (n_blocks,)
-    block_maps: np.ndarray  # (n_blocks, 3, COLUMNS)
+    clock: Array  # (n_cells, 4)
+    level: Integers  # (n_cells,) index of the stiffness level
+    maps: Array  # (n_cells, 3, COLUMNS)
+    bases: Array  # (n_levels, 2, 5, TERMS), free flight and contact
+    fourths: Array  # (n_levels, 2, 5) bounds of their fourth derivatives
+    forced: Array  # (n_cells, 2, TERMS) responses from rest to the higher harmonics; no rows without these
+    forced_fourths: Array  # (n_cells, 2) bounds of their fourth derivatives
+    blocks: Integers  # (n_blocks + 1,) first cell of each block
+    block_width: Array  # (n_blocks,)
+    block_maps: Array  # (n_blocks, 3, COLUMNS)
     period: float
     damping_ratio: float
     escape_radius: float  # |X| + |X'| from which no motion comes back
 
 
 @kernel
-def count_blocks(p, level):
+def count_blocks(p: Parameters, level: int) -> int:
     """How many blocks one stiffness level needs: cells, if the forcing has one harmonic."""
     rate = fastest_rate(p.levels[level], p.damping_ratio, p.mesh_frequency)
     rate = max(rate, 2.0 * p.damping_ratio)
@@ -87,7 +87,7 @@ def count_blocks(p, level):
 
 
 @kernel
-def count_cells(p, level):
+def count_cells(p: Parameters, level: int) -> int:
     """How many cells one stiffness level needs: whole blocks of them."""
     order = 0.0
     for i in range(p.harmonics.shape[0]):
@@ -98,8 +98,32 @@ def count_cells(p, level):
 
 
 @allocating_kernel
-def build_cells(p):
+def build_cells(p: Parameters) -> Cells:
     """Cut the mesh period of oscillator `p` into cells."""
+    cells = empty_cells(p)
+    j, b = 0, 0
+    for i in range(p.levels.size):
+        n = count_cells(p, i)
+        per_block = n // count_blocks(p, i)
+        span = (p.edges[i + 1] - p.edges[i]) / n
+        width = span * cells.period
+        fill_basis(0.0, p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 0])
+        fill_basis(p.levels[i], p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 1])
+        for contact in range(2):
+            for k in range(5):
+                cells.fourths[i, contact, k] = fourth_derivative_bound(cells.bases[i, contact, k], 1.0)
+        for m in range(n):
+            fill_cell(p, cells, j, i, p.edges[i] + m * span, width)
+            j += 1
+            if (m + 1) % per_block == 0:
+                fill_block(cells, b, j - per_block, j)
+                b += 1
+    return cells
+
+
+@allocating_kernel
+def empty_cells(p: Parameters) -> Cells:
+    """The cells of oscillator `p`, with what belongs to no cell filled in."""
     n_levels = p.levels.size
     n_cells, n_blocks = 0, 0
     for i in range(n_levels):
@@ -112,7 +136,7 @@ def build_cells(p):
         force += size * np.sin(h[PHASE])
         rate += h[ORDER] * size * np.cos(h[PHASE])
     n_forced = n_cells if p.harmonics.shape[0] > 0 else 0
-    cells = Cells(
+    return Cells(
         p.mean_force,
         amplitude,
         2.0 * np.pi,
@@ -132,41 +156,28 @@ def build_cells(p):
         p.damping_ratio,
         ESCAPE_RADIUS if contact_growth(p) > 1.0 else np.inf,
     )
-    j, b = 0, 0
-    for i in range(n_levels):
-        n = count_cells(p, i)
-        per_block = n // count_blocks(p, i)
-        span = (p.edges[i + 1] - p.edges[i]) / n
-        width = span * cells.period
-        fill_basis(0.0, p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 0])
-        fill_basis(p.levels[i], p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 1])
+
+
+@allocating_kernel
+def fill_cell(p: Parameters, cells: Cells, j: int, level: int, start: float, width: float) -> None:
+    """Cell `j`, from `start` (in mesh periods) on, of a stiffness level whose bases are filled in."""
+    theta = cells.phase_per_period * start + p.error_phase
+    cells.clock[j, WIDTH] = width
+    cells.clock[j, START] = start
+    cells.clock[j, SINE] = cells.amplitude * np.sin(theta)
+    cells.clock[j, COSINE] = cells.amplitude * np.cos(theta)
+    cells.level[j] = level
+    if p.harmonics.shape[0] > 0:
         for contact in range(2):
-            for k in range(5):
-                cells.fourths[i, contact, k] = fourth_derivative_bound(cells.bases[i, contact, k], 1.0)
-        for m in range(n):
-            start = p.edges[i] + m * span
-            theta = cells.phase_per_period * start + p.error_phase
-            cells.clock[j, WIDTH] = width
-            cells.clock[j, START] = start
-            cells.clock[j, SINE] = cells.amplitude * np.sin(theta)
-            cells.clock[j, COSINE] = cells.amplitude * np.cos(theta)
-            cells.level[j] = i
-            if n_forced > 0:
-                for contact in range(2):
-                    kappa, row = p.levels[i] * contact, cells.forced[j, contact]
-                    fill_forced(kappa, p.damping_ratio, p.mesh_frequency, width, start, p.harmonics, row)
-                    cells.forced_fourths[j, contact] = fourth_derivative_bound(row, 1.0)
-            for region in range(3):
-                fill_map(cells, j, region)
-            j += 1
-            if (m + 1) % per_block == 0:
-                fill_block(cells, b, j - per_block, j)
-                b += 1
-    return cells
+            kappa, row = p.levels[level] * contact, cells.forced[j, contact]
+            fill_forced(kappa, p.damping_ratio, p.mesh_frequency, width, start, p.harmonics, row)
+            cells.forced_fourths[j, contact] = fourth_derivative_bound(row, 1.0)
+    for region in range(3):
+        fill_map(cells, j, region)
 
 
 @kernel
-def contact_growth(p):
+def contact_growth(p: Parameters) -> float:
     """The larger multiplier's modulus of the always-in-contact motion over a mesh period (Floquet).
 
     Its determinant is exp(-2 zeta T), so the trace decides.
@@ -192,7 +203,7 @@ def contact_growth(p):
 
 
 @allocating_kernel
-def fill_map(cells, j, region):
+def fill_map(cells: Cells, j: int, region: int) -> None:
     """The affine map of cell `j` in one region, and its spread."""
     basis = cells.bases[cells.level[j], abs(region - 1)]
     shift = region - 1.0
@@ -219,7 +230,7 @@ def fill_map(cells, j, region):
 
 
 @allocating_kernel
-def fill_block(cells, b, first, last):
+def fill_block(cells: Cells, b: int, first: int, last: int) -> None:
     """Join cells `first` to `last` (of equal width and one stiffness level) to block `b`.
 
     Its map is the product of theirs. Its spread is the largest of theirs, each written in terms of the

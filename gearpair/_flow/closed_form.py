@@ -17,7 +17,7 @@ import math
 
 import numpy as np
 
-from ._kernel import kernel
+from ._kernel import Array, kernel
 
 DEGREE = 15
 TERMS = DEGREE + 1
@@ -37,7 +37,7 @@ def fastest_rate(kappa: float, zeta: float, omega: float) -> float:
 
 
 @kernel
-def fill_basis(kappa, zeta, omega, width, basis):
+def fill_basis(kappa: float, zeta: float, omega: float, width: float, basis: Array) -> None:
     """Power series in t = h / width of the responses to unit (X - s, X', F_m, A sin theta, A cos theta).
 
     The equation itself gives each coefficient from the two before it,
@@ -67,7 +67,9 @@ def fill_basis(kappa, zeta, omega, width, basis):
 
 
 @kernel
-def fill_forced(kappa, zeta, omega, width, start, harmonics, forced):
+def fill_forced(
+    kappa: float, zeta: float, omega: float, width: float, start: float, harmonics: Array, forced: Array
+) -> None:
     """Power series in t = h / width of the response from rest to the higher harmonics of the forcing.
 
     `start` is the cell's in mesh periods, `harmonics` (n, 3) as in `Parameters`. The equation gives each coefficient
@@ -88,7 +90,7 @@ def fill_forced(kappa, zeta, omega, width, start, harmonics, forced):
 
 
 @kernel
-def add_shifted(forced, t, series):
+def add_shifted(forced: Array, t: float, series: Array) -> None:
     """Add to `series` the power series `forced`, expanded about `t`, without its value and slope there."""
     if t == 0.0:
         for k in range(2, TERMS):
@@ -102,7 +104,9 @@ def add_shifted(forced, t, series):
 
 
 @kernel
-def expand(basis, shift, x, v, force, sine, cosine, series):
+def expand(
+    basis: Array, shift: float, x: float, v: float, force: float, sine: float, cosine: float, series: Array
+) -> None:
     """The motion's power series in t from its state and forcing at t = 0."""
     y = x - shift
     for n in range(basis.shape[1]):  # TERMS; a length that the compiler does not know is done several terms at once
@@ -113,7 +117,7 @@ def expand(basis, shift, x, v, force, sine, cosine, series):
 
 
 @kernel
-def evaluate(series, t):
+def evaluate(series: Array, t: float) -> tuple[float, float, float]:
     """Value and first two derivatives of a power series at t (Horner)."""
     p = series[DEGREE]
     dp = 0.0
@@ -126,7 +130,7 @@ def evaluate(series, t):
 
 
 @kernel
-def evaluate_jerk(series, t):
+def evaluate_jerk(series: Array, t: float) -> tuple[float, float, float, float]:
     """Value and first three derivatives of a power series at t."""
     p, dp, ddp = evaluate(series, t)
     dddp = 0.0
@@ -136,7 +140,7 @@ def evaluate_jerk(series, t):
 
 
 @kernel
-def fourth_derivative_bound(series, end):
+def fourth_derivative_bound(series: Array, end: float) -> float:
     """``max |p''''|`` of a power series p on [0, end], from above: the sum of its terms' moduli."""
     bound = 0.0
     for n in range(DEGREE, 3, -1):

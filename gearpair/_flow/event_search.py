@@ -18,7 +18,7 @@ certificates, cheapest first:
 
 import numpy as np
 
-from ._kernel import kernel
+from ._kernel import Array, kernel
 from .closed_form import TERMS, evaluate, evaluate_jerk, fourth_derivative_bound
 
 MONOTONE = 384.0 * np.sqrt(3.0) / 216.0 / 3.0 * 1.01
@@ -28,7 +28,7 @@ INSIDE, LEFT, UNDECIDED = 0, 1, 2
 
 
 @kernel
-def certified_step(d, u, m):
+def certified_step(d: float, u: float, m: float) -> float:
     """The first positive root h of ``d + u h + m h^2 / 2``, for d >= 0; inf where there is none."""
     square = u * u - 2.0 * m * d
     if square < 0.0 or (u >= 0.0 and m >= 0.0):
@@ -41,7 +41,7 @@ def certified_step(d, u, m):
 
 
 @kernel
-def longest_step(d, u, a, j, fourth, end):
+def longest_step(d: float, u: float, a: float, j: float, fourth: float, end: float) -> float:
     """The longest certified step up to `end` from distance d, derivatives u, a, j, a fourth within +-`fourth`."""
     step = 0.0
     while end > step:
@@ -52,7 +52,7 @@ def longest_step(d, u, a, j, fourth, end):
 
 
 @kernel
-def region_at(x, v, acceleration, force_rate):
+def region_at(x: float, v: float, acceleration: float, force_rate: float) -> int:
     """The region that the motion enters from (x, v): on a boundary the first non-zero derivative decides."""
     if x > 1.0:
         return 1
@@ -71,7 +71,9 @@ def region_at(x, v, acceleration, force_rate):
 
 
 @kernel
-def first_exit(series, region, end, x1, v1, fourth):
+def first_exit(
+    series: Array, region: int, end: float, x1: float, v1: float, fourth: float
+) -> tuple[int, float, float, float]:
     """When the motion first leaves `region` in (0, end].
 
     Returns (outcome, t, boundary, slope there): LEFT at t through X = boundary, INSIDE with t = end, or
@@ -101,7 +103,9 @@ def first_exit(series, region, end, x1, v1, fourth):
 
 
 @kernel
-def single_root(series, boundary, end, b0, b1, b2, b3):
+def single_root(
+    series: Array, boundary: float, end: float, b0: float, b1: float, b2: float, b3: float
+) -> tuple[float, float]:
     """The root of ``p(t) = boundary`` on (0, end) where p is monotone and passes the boundary, and the slope there.
 
     Started from the root of the cubic Hermite interpolant, then Halley's iteration kept in a bracket.
@@ -135,7 +139,9 @@ def single_root(series, boundary, end, b0, b1, b2, b3):
 
 
 @kernel
-def step_by_step(series, floor, ceiling, end, fourth):
+def step_by_step(
+    series: Array, floor: float, ceiling: float, end: float, fourth: float
+) -> tuple[int, float, float, float]:
     """`first_exit` by certified steps alone."""
     tiny = ROUNDING * max(1.0, abs(series[0]))  # below this a distance is rounding
     t, u = 0.0, 0.0
@@ -162,7 +168,7 @@ def step_by_step(series, floor, ceiling, end, fourth):
 
 
 @kernel
-def next_turn(series, t, end):
+def next_turn(series: Array, t: float, end: float) -> float:
     """The first root of the slope p' in [t, end], by certified steps on the slope; inf where there is none.
 
     A root at `t` itself counts; to go on from a root, start a `least_step` later.
@@ -182,7 +188,7 @@ def next_turn(series, t, end):
 
 
 @kernel
-def slope_bounds(series, end):
+def slope_bounds(series: Array, end: float) -> tuple[float, float]:
     """A bound of the third derivative on [0, end], and the slope that is rounding (of X over a cell, too)."""
     bend, scale = 0.0, 0.0
     for n in range(TERMS - 1, 2, -1):
@@ -193,7 +199,7 @@ def slope_bounds(series, end):
 
 
 @kernel
-def least_step(series, end):
+def least_step(series: Array, end: float) -> float:
     """How far p' must be followed from a root for it to leave its rounding."""
     bend, tiny = slope_bounds(series, end)
     return np.sqrt(2.0 * tiny / bend)

@@ -8,11 +8,14 @@ Sources: J. R. Dormand and P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19; the
 Math. Comp. 46 (1986) 135.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
-from ._kernel import allocating_kernel, kernel
+from ._kernel import Array, Integers, allocating_kernel, kernel
+from .cells import Parameters
 from .closed_form import AMPLITUDE, ORDER, PHASE
-from .settle import parameters_of
+from .settle import Lanes, parameters_of
 
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
 STAGES = np.array(
@@ -47,13 +50,13 @@ ESCAPE = 1e6  # |X| + |X'| beyond which the classical method gives up
 
 
 @kernel
-def deflection(x):
+def deflection(x: float) -> float:
     """How far X is beyond the backlash, with its sign: f(X)."""
     return x - 1.0 if x > 1.0 else x + 1.0 if x < -1.0 else 0.0
 
 
 @kernel
-def acceleration(p, tau, x, v):
+def acceleration(p: Parameters, tau: float, x: float, v: float) -> float:
     """X'' of oscillator `p` at (tau, x, v)."""
     force = p.mean_force + p.error_amplitude * p.mesh_frequency**2 * np.sin(p.mesh_frequency * tau + p.error_phase)
     for h in p.harmonics:
@@ -72,13 +75,13 @@ def acceleration(p, tau, x, v):
 
 
 @kernel
-def norm(x, v, x_scale, v_scale):
+def norm(x: float, v: float, x_scale: float, v_scale: float) -> float:
     """Root mean square of the two components, each in its own scale."""
     return np.sqrt(0.5 * ((x / x_scale) ** 2 + (v / v_scale) ** 2))
 
 
 @kernel
-def first_step(p, x, v, end, rtol, atol):
+def first_step(p: Parameters, x: float, v: float, end: float, rtol: float, atol: float) -> float:
     """A first step from the sizes of the state and its first two derivatives (Hairer, Norsett, Wanner I, II.4)."""
     x_scale, v_scale = atol + abs(x) * rtol, atol + abs(v) * rtol
     a = acceleration(p, 0.0, x, v)
@@ -94,7 +97,7 @@ def first_step(p, x, v, end, rtol, atol):
 
 
 @kernel
-def fill_stages(p, tau, x, v, h, slopes):
+def fill_stages(p: Parameters, tau: float, x: float, v: float, h: float, slopes: Array) -> tuple[float, float]:
     """Stages 1 to 6 of a step `h`, stage 0 given: the new (x, v). ``slopes`` is (2, 7): X' and X'' of each stage."""
     x1, v1 = x, v
     for i in range(1, 7):
@@ -108,7 +111,7 @@ def fill_stages(p, tau, x, v, h, slopes):
 
 
 @kernel
-def step_error(slopes, h):
+def step_error(slopes: Array, h: float) -> tuple[float, float]:
     """The difference of the fifth- and the fourth-order step."""
     dx, dv = 0.0, 0.0
     for i in range(7):
@@ -118,7 +121,7 @@ def step_error(slopes, h):
 
 
 @kernel
-def interpolate(slopes, component, start, h, s):
+def interpolate(slopes: Array, component: int, start: float, h: float, s: float) -> float:
     """One component of the state at the share `s` of a step."""
     change = 0.0
     for i in range(7):
@@ -129,14 +132,24 @@ def interpolate(slopes, component, start, h, s):
     return start + h * change
 
 
+class Steps(NamedTuple):
+    """How to step: by the pair, or with equal steps where there is no tolerance."""
+
+    rtol: float  # 0 for equal steps
+    atol: float
+    per_period: int  # equal steps a mesh period; of the pair, the least number (0: any)
+    most: int  # steps of the pair in all
+
+
 @allocating_kernel
-def integrate(p, x, v, n_periods, rtol, atol, max_step, max_steps, points):
-    """RK45 from (x, v) over `n_periods` in steps of `max_step` at most: (status, steps taken, calls of the right side).
+def integrate(p: Parameters, x: float, v: float, n_periods: int, steps: Steps, points: Array) -> tuple[int, int, int]:
+    """RK45 from (x, v) over `n_periods`: (status, steps taken, calls of the right side).
 
     Fills ``points`` (m, 2) with the last m section points ``tau = n T``, from the start (n = 0) to the end.
     """
     period = 2.0 * np.pi / p.mesh_frequency
-    end = n_periods * period
+    end, rtol, atol = n_periods * period, steps.rtol, steps.atol
+    max_step = period / steps.per_period if steps.per_period > 0 else np.inf
     slopes = np.empty((2, 7))
     tau = 0.0
     h = first_step(p, x, v, end, rtol, atol)
@@ -148,13 +161,13 @@ def integrate(p, x, v, n_periods, rtol, atol, max_step, max_steps, points):
         points[0, 0], points[0, 1] = x, v
         section = 1
     section = max(section, first_kept)
-    for steps in range(max_steps):
+    for taken in range(steps.most):
         least = 10.0 * (np.nextafter(tau, np.inf) - tau)
         h = max(min(h, max_step), least)
         rejected = False
         while True:
             if not h >= least:
-                return STEP_TOO_SMALL, steps, calls
+                return STEP_TOO_SMALL, taken, calls
             tau1 = min(tau + h, end)
             h = tau1 - tau
             x1, v1 = fill_stages(p, tau, x, v, h, slopes)
@@ -174,29 +187,13 @@ def integrate(p, x, v, n_periods, rtol, atol, max_step, max_steps, points):
         h *= min(1.0, factor) if rejected else factor
         tau, x, v = tau1, x1, v1
         if tau >= end:
-            return COMPLETE, steps + 1, calls
+            return COMPLETE, taken + 1, calls
         slopes[0, 0], slopes[1, 0] = slopes[0, 6], slopes[1, 6]
-    return TOO_MANY_STEPS, max_steps, calls
-
-
-@allocating_kernel
-def integrate_rows(first, last, lanes, chain, n_periods, rtol, atol, least_steps, max_steps, points, status, calls):
-    """`integrate` for lanes `first` to `last`, filling the same rows of `points` (n, m, 2), `status` and `calls` (n,).
-
-    A step is at most the `least_steps`-th part of a mesh period. All but the first of each `chain` lanes start where
-    the one before it ended, if that is complete.
-    """
-    for i in range(first, last):
-        x, v = lanes.starts[i, 0], lanes.starts[i, 1]
-        if i % chain > 0 and status[i - 1] == COMPLETE:
-            x, v = points[i - 1, -1, 0], points[i - 1, -1, 1]
-        p = parameters_of(lanes, i)
-        max_step = 2.0 * np.pi / (p.mesh_frequency * least_steps) if least_steps > 0 else np.inf
-        status[i], _steps, calls[i] = integrate(p, x, v, n_periods, rtol, atol, max_step, max_steps, points[i])
+    return TOO_MANY_STEPS, steps.most, calls
 
 
 @kernel
-def tabulate(p, n_steps, forces, levels):
+def tabulate(p: Parameters, n_steps: int, forces: Array, levels: Array) -> None:
     """Force and stiffness at every half step of a mesh period, shape (2 n_steps,); the period's end is its start."""
     half = np.pi / (p.mesh_frequency * n_steps)
     level = 0
@@ -207,7 +204,7 @@ def tabulate(p, n_steps, forces, levels):
 
 
 @allocating_kernel
-def integrate_fixed(p, x, v, n_periods, n_steps, points):
+def integrate_fixed(p: Parameters, x: float, v: float, n_periods: int, n_steps: int, points: Array) -> int:
     """The classical Runge-Kutta method with `n_steps` equal steps a mesh period; `points` as in `integrate`: a status.
 
     The steps begin with the mesh period and take no notice of switches and of contacts.
@@ -238,14 +235,20 @@ def integrate_fixed(p, x, v, n_periods, n_steps, points):
 
 
 @allocating_kernel
-def integrate_fixed_rows(first, last, lanes, chain, n_periods, n_steps, points, status):
-    """`integrate_fixed` for lanes `first` to `last`, filling the same rows of `points` (n, m, 2) and `status` (n,).
+def integrate_lanes(
+    first: int, last: int, lanes: Lanes, chain: int, n_periods: int, steps: Steps, points: Array, counts: Integers
+) -> None:
+    """Integrate lanes `first` to `last`: the same rows of `points` (n, m, 2) and `counts` (n, 2): status, calls.
 
-    All but the first of each `chain` lanes start where the one before it ended, if that is complete.
+    All but the first of each `chain` lanes start where the one before it ended, if that is complete. Calls are not
+    counted with equal steps.
     """
     for i in range(first, last):
         x, v = lanes.starts[i, 0], lanes.starts[i, 1]
-        if i % chain > 0 and status[i - 1] == COMPLETE:
+        if i % chain > 0 and counts[i - 1, 0] == COMPLETE:
             x, v = points[i - 1, -1, 0], points[i - 1, -1, 1]
-        p = parameters_of(lanes, i)
-        status[i] = integrate_fixed(p, x, v, n_periods, n_steps, points[i])
+        p = parameters_of(lanes, lanes.own[i])
+        if steps.rtol > 0.0:
+            counts[i, 0], _taken, counts[i, 1] = integrate(p, x, v, n_periods, steps, points[i])
+        else:
+            counts[i, 0] = integrate_fixed(p, x, v, n_periods, steps.per_period, points[i])

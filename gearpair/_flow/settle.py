@@ -1,21 +1,34 @@
-"""The settled motion from one start, and batches of it: many oscillators, many starts.
+"""The machine that settles: what a motion becomes, for one start or for many.
 
-A motion is followed until it is *captured*: in a neighbourhood of a stable cycle that no motion leaves (see `capture`).
-The cycles are those known beforehand, and the one that the motion itself was last seen to return near.
+| state | what leads on | to |
+|---|---|---|
+| on its way | it enters a neighbourhood of an attractor known beforehand | captured |
+| on its way | it returns near itself | attempt |
+| attempt | a stable orbit is found whose neighbourhood holds the motion, or to which it has returned | captured |
+| attempt | anything else | on its way; the next return must be closer |
+| on its way | the transient has passed | judged, or exhausted where the work left is too little |
+| judged | it slowly approaches a stable orbit | captured |
+| judged | its exponent is positive, well outside its error | aperiodic |
+| judged | anything else, also after that time | unsettled |
+| any | the walk ends early | escaped, or capped |
+
+A captured motion is periodic: its limit is described, or copied where it is known. The neighbourhoods, which no motion
+leaves, are those of `capture`: of the cycles known beforehand, and of the one that the motion was last seen to
+return near.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from ._kernel import allocating_kernel, kernel
+from ._kernel import Array, Integers, allocating_kernel, kernel
 from .capture import COLUMNS, OWNER, V, X, inside, surround
-from .cells import Parameters, build_cells
+from .cells import Cells, Parameters, build_cells
 from .closed_form import TERMS
-from .exponents import exponents
-from .march import ESCAPED, OK, march
-from .observe import extremes, measure, widen
-from .tangent import NEWTON_STEPS, march_tangent, newton
+from .newton import NEWTON_STEPS, SAME_POINT, derivative, distance, minimal_period, newton
+from .observe import exponents, measure
+from .reach import COAST, DRIVE, HIGHEST, LOWEST, begin_reach
+from .walk import ESCAPED, OK, walk
 
 PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED, NOT_RUN, EXHAUSTED = 0, 1, 2, 3, 4, 5, 6
 
@@ -32,55 +45,100 @@ FIRST_SPAN = 4
 STABLE = 1.0 - 1e-9
 # After the whole transient slower motions count too: a stable orbit within NEAR that the motion approaches.
 NEAR = 1e-2
-# Section points of one cycle closer than this are one point: its period is shorter than it returned with.
-SAME_POINT = 1e-9
 # An exponent is resolved when it exceeds this many standard errors.
 RESOLVED = 4.0
 EXPONENT_BLOCKS = 20
 
 
-class Lanes(NamedTuple):
-    """A batch of oscillators and starts, one lane each."""
+class Limits(NamedTuple):
+    """How far to look."""
 
-    scalars: np.ndarray  # (n, 5): mean force, error amplitude, error phase, damping ratio, mesh frequency
-    edges: np.ndarray  # (n, n_levels + 1)
-    levels: np.ndarray  # (n, n_levels)
-    harmonics: np.ndarray  # (n, n_harmonics, 3)
-    starts: np.ndarray  # (n, 2)
-    n_transient: np.ndarray  # (n,)
+    max_period: int  # the longest period looked for
+    n_exponent: int  # mesh periods over which exponents are measured
+    most: int  # mesh periods of one motion at most; one that would need more is followed for as many and not judged
+
+
+class Lanes(NamedTuple):
+    """A batch of motions, one lane each, of some oscillators."""
+
+    scalars: Array  # (m, 5): mean force, error amplitude, error phase, damping ratio, mesh frequency
+    edges: Array  # (m, n_levels + 1)
+    levels: Array  # (m, n_levels)
+    harmonics: Array  # (m, n_harmonics, 3)
+    own: Integers  # (n,) row of the lane's oscillator
+    starts: Array  # (n, 2)
+    n_transient: Integers  # (n,)
 
 
 class Settled(NamedTuple):
-    """What became of each lane; the arrays have one row a lane, filled with nan beforehand."""
+    """What became of each lane; the arrays have one row a lane, filled beforehand with what stands for "not run"."""
 
-    status: np.ndarray  # (n,) PERIODIC ... NOT_RUN
-    period: np.ndarray  # (n,) 0 unless PERIODIC
-    points: np.ndarray  # (n, n_samples, 2) successive section points; a cycle starts at its smallest X
-    monodromy: np.ndarray  # (n, 2, 2) nan unless PERIODIC
-    extremes: np.ndarray  # (n, 2)
-    exponents: np.ndarray  # (n, 3): largest, smallest, standard error
-    final: np.ndarray  # (n, 2) the last section point marched to; of a periodic motion, that of its orbit
-    attractor: np.ndarray  # (n,) row of the known attractor that captured the motion, or -1
-    way: np.ndarray  # (n, 4) until captured or judged: mesh periods, impacts, smallest and largest X
-    measures: np.ndarray  # (n, N_MEASURES), or (n, 0) where they are not asked for
+    status: Integers  # (n,) PERIODIC ... NOT_RUN
+    period: Integers  # (n,) 0 unless PERIODIC
+    points: Array  # (n, n_samples, 2) successive section points; a cycle starts at its smallest X
+    monodromy: Array  # (n, 2, 2) nan unless PERIODIC
+    extremes: Array  # (n, 2)
+    exponents: Array  # (n, 3): largest, smallest, standard error
+    final: Array  # (n, 2) the last section point walked to; of a periodic motion, that of its orbit
+    attractor: Integers  # (n,) row of the known attractor that captured the motion, or -1
+    way: Array  # (n, 4) until captured or judged: mesh periods, impacts, smallest and largest X
+    measures: Array  # (n, N_MEASURES), or (n, 0) where they are not asked for
 
 
 class Known(NamedTuple):
     """Attractors known beforehand."""
 
     settled: Settled  # one row an attractor
-    neighbourhoods: np.ndarray  # (m, COLUMNS), OWNER the attractor's row
+    neighbourhoods: Array  # (m, COLUMNS), OWNER the attractor's row
+
+
+class Scratch(NamedTuple):
+    """What a thread works with."""
+
+    known: Known
+    neighbourhoods: Array  # the known ones first, then room for those of one more cycle
+    m: Array  # (2, 2)
+    reach: Array  # (4,)
+    series: Array  # (TERMS,)
+
+
+class Orbit(NamedTuple):
+    """A stable orbit."""
+
+    period: int  # 0: there is none
+    x: float
+    v: float
+    n_neighbourhoods: int  # certified for it, among the scratch
+
+
+class Course(NamedTuple):
+    """Where a motion has been followed to."""
+
+    status: int  # of the walk
+    x: float  # the last point reached; of a captured motion, its limit
+    v: float
+    owner: int  # row of the known attractor that captured it, or -1
+    orbit: Orbit  # that captured it, where it is not known
 
 
 @allocating_kernel
-def parameters_of(lanes, i):
-    """The oscillator of lane `i`."""
+def parameters_of(lanes: Lanes, i: int) -> Parameters:
+    """Oscillator `i` of a batch."""
     s = lanes.scalars[i]
     return Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i], lanes.harmonics[i])
 
 
+@allocating_kernel
+def make_scratch(known: Known, max_period: int) -> Scratch:
+    """Scratch for motions of periods up to `max_period`."""
+    n = len(known.neighbourhoods)
+    neighbourhoods = np.empty((n + max_period, COLUMNS))
+    neighbourhoods[:n] = known.neighbourhoods
+    return Scratch(known, neighbourhoods, np.empty((2, 2)), np.empty(4), np.empty(TERMS))
+
+
 @kernel
-def spectral_radius(m):
+def spectral_radius(m: Array) -> float:
     """The larger modulus of the eigenvalues of a 2 x 2 matrix."""
     half = 0.5 * (m[0, 0] + m[1, 1])
     determinant = m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0]
@@ -91,22 +149,16 @@ def spectral_radius(m):
 
 
 @kernel
-def distance(x, v, x0, v0):
-    """How far two states lie apart, relative to max(1, |X|, |X'|)."""
-    return max(abs(x - x0), abs(v - v0)) / max(1.0, max(abs(x0), abs(v0)))
+def stable_orbit(cells: Cells, x: float, v: float, period: int, steps: int, most_trace: float, work: Scratch) -> Orbit:
+    """The stable orbit that Newton's method finds from (x, v)."""
+    converged, xs, vs, _residual = newton(cells, x, v, period, work.m, work.series, steps, most_trace)
+    if converged and spectral_radius(work.m) < STABLE:
+        return Orbit(minimal_period(cells, xs, vs, period, work.series), xs, vs, 0)
+    return Orbit(0, xs, vs, 0)
 
 
 @kernel
-def stable_orbit(cells, x, v, period, steps, most_trace, m, series):
-    """The stable orbit that Newton's method finds from (x, v): (minimal period or 0, x*, v*); `m` its monodromy."""
-    converged, xs, vs, _residual = newton(cells, x, v, period, m, series, steps, most_trace)
-    if converged and spectral_radius(m) < STABLE:
-        return minimal_period(cells, xs, vs, period, m, series), xs, vs
-    return 0, xs, vs
-
-
-@kernel
-def beside(neighbourhoods, n, x, v):
+def beside(neighbourhoods: Array, n: int, x: float, v: float) -> bool:
     """Whether (x, v) is near the centre of one of the first `n` neighbourhoods: that it returns there is no news."""
     nearest = np.inf
     for i in range(n):
@@ -115,170 +167,176 @@ def beside(neighbourhoods, n, x, v):
 
 
 @kernel
-def follow(cells, x, v, n_transient, max_period, n_known, neighbourhoods, way, m, series):
-    """Follow a motion until it is captured: (status, owner, period, x, v, x*, v*).
+def attempt(
+    cells: Cells, x: float, v: float, within: int, gap: float, orbit: Orbit, work: Scratch
+) -> tuple[bool, Orbit]:
+    """A search for the orbit of a motion that returned to within `gap` after `within` periods: (found, orbit).
 
-    The `owner` is the row of the known attractor that captured it, or -1; the period, if not 0, is that of an orbit
-    of its own through (x*, v*), with monodromy `m`. (x, v) is the captured motion's limit, or the last point reached.
-    Rows of `neighbourhoods` from `n_known` on are scratch. Fills `way` (4,).
+    Not found, or one of a known attractor: the `orbit` of the last search stays. One that is new is surrounded.
     """
-    low, high = x, x
-    done, impacts, n, period = 0, 0, n_known, 0
-    xs, vs = x, v
-    closeness, span, within = PROMISING, FIRST_SPAN, 0
+    rows, n_known = work.neighbourhoods, len(work.known.neighbourhoods)
+    steps, most_trace = (NEWTON_STEPS, np.inf) if gap <= RETURNED else (FEW_STEPS, MOST_TRACE)
+    found = stable_orbit(cells, x, v, within, steps, most_trace, work)
+    if found.period == 0 or inside(rows, n_known, found.x, found.v) >= 0:
+        return False, orbit
+    n = orbit.n_neighbourhoods
+    same = orbit.period > 0 and distance(found.x, found.v, orbit.x, orbit.v) <= SAME_POINT
+    if not same and inside(rows, n_known + n, found.x, found.v) < 0:
+        certain = surround(cells, found.x, found.v, found.period, -1.0, rows[n_known:], work.series)
+        n = found.period if certain else 0
+    return True, Orbit(found.period, found.x, found.v, n)
+
+
+@kernel
+def follow(cells: Cells, x: float, v: float, n_transient: int, max_period: int, way: Array, work: Scratch) -> Course:
+    """Follow a motion until it is captured, `n_transient` periods at most. Fills `way` (4,)."""
+    rows, n_known = work.neighbourhoods, len(work.known.neighbourhoods)
+    orbit = Orbit(0, x, v, 0)
+    begin_reach(work.reach, x)
+    done, within, span, closeness = 0, 0, FIRST_SPAN, PROMISING
     x0, v0 = x, v
-    status = OK
-    held = inside(neighbourhoods, n, x, v)
-    while held < 0 and done < n_transient:
-        status, x, v, low, high, drive, coast = widen(cells, x, v, 1, low, high, series)
+    status, returned = OK, False
+    held = inside(rows, n_known, x, v)
+    while held < 0 and done < n_transient and not returned:
+        status, x, v = walk(cells, x, v, 1, work.series, None, work.reach)
         if status != OK:
             break
         done += 1
-        impacts += drive + coast
         within += 1
-        held = inside(neighbourhoods, n, x, v)
+        n = n_known + orbit.n_neighbourhoods
+        held = inside(rows, n, x, v)
         gap = distance(x, v, x0, v0)
-        if held < 0 and gap <= closeness and (gap <= RETURNED or not beside(neighbourhoods, n, x, v)):
-            steps, most_trace = (NEWTON_STEPS, np.inf) if gap <= RETURNED else (FEW_STEPS, MOST_TRACE)
-            found, xo, vo = stable_orbit(cells, x, v, within, steps, most_trace, m, series)
-            if found > 0 and inside(neighbourhoods, n_known, xo, vo) < 0:
-                new = inside(neighbourhoods, n, xo, vo) < 0 and (period == 0 or distance(xo, vo, xs, vs) > SAME_POINT)
-                period, xs, vs = found, xo, vo
-                if new:
-                    n = n_known
-                    if surround(cells, xs, vs, period, -1.0, neighbourhoods[n_known:], series):
-                        n += period
-                    held = inside(neighbourhoods, n, x, v)
-                if held < 0 and gap <= RETURNED and distance(x, v, xs, vs) <= CAPTURED:
-                    way[0], way[1], way[2], way[3] = done, impacts, low, high
-                    return OK, -1, period, xs, vs, xs, vs
+        if held < 0 and gap <= closeness and (gap <= RETURNED or not beside(rows, n, x, v)):
+            found, orbit = attempt(cells, x, v, within, gap, orbit, work)
+            held = inside(rows, n_known + orbit.n_neighbourhoods, x, v)
+            returned = found and gap <= RETURNED and distance(x, v, orbit.x, orbit.v) <= CAPTURED
             closeness = max(RETURNED, LESS * closeness)
         if within >= min(span, max_period):
             x0, v0, within, span = x, v, 0, 2 * span
-    way[0], way[1], way[2], way[3] = done, impacts, low, high
-    if held < 0:
-        return status, -1, 0, x, v, x, v
-    x, v = neighbourhoods[held, X], neighbourhoods[held, V]
-    if held < n_known:
-        return OK, int(neighbourhoods[held, OWNER]), 0, x, v, x, v
-    m[0, 0], m[0, 1], m[1, 0], m[1, 1] = 1.0, 0.0, 0.0, 1.0
-    march_tangent(cells, xs, vs, period, m, series)
-    return OK, -1, period, x, v, xs, vs
+    way[0], way[1] = done, work.reach[DRIVE] + work.reach[COAST]
+    way[2], way[3] = work.reach[LOWEST], work.reach[HIGHEST]
+    if held >= 0:
+        owner = int(rows[held, OWNER]) if held < n_known else -1
+        return Course(OK, rows[held, X], rows[held, V], owner, orbit)
+    if returned:
+        return Course(OK, orbit.x, orbit.v, -1, orbit)
+    return Course(status, x, v, -1, Orbit(0, x, v, 0))
 
 
 @kernel
-def minimal_period(cells, xs, vs, period, m, series):
-    """The shortest period of the cycle through (xs, vs); `m` becomes its monodromy."""
-    x, v = xs, vs
-    for shorter in range(1, period):
-        _status, x, v = march(cells, x, v, 1, series)
-        if period % shorter == 0 and distance(x, v, xs, vs) <= SAME_POINT:
-            m[0, 0], m[0, 1], m[1, 0], m[1, 1] = 1.0, 0.0, 0.0, 1.0
-            march_tangent(cells, xs, vs, shorter, m, series)
-            return shorter
-    return period
+def approached(cells: Cells, x: float, v: float, max_period: int, work: Scratch) -> Course:
+    """Walk until the motion returns to a stable orbit that it slowly approaches, `max_period` periods at most.
 
-
-@kernel
-def approached(cells, x, v, max_period, m, series):
-    """March until the motion returns to a stable orbit that it slowly approaches: (status, period, x, v, x*, v*).
-
-    The orbit lies within `NEAR`, and comes nearer over twenty of its cycles. The period is 0 where there is none within
-    `max_period` periods; (x*, v*) is then meaningless.
+    The orbit lies within `NEAR`, and comes nearer over twenty of its cycles.
     """
     x0, v0 = x, v
     for within in range(1, max_period + 1):
-        status, x, v = march(cells, x, v, 1, series)
+        status, x, v = walk(cells, x, v, 1, work.series)
         if status != OK:
-            return status, 0, x, v, x, v
+            return Course(status, x, v, -1, Orbit(0, x, v, 0))
         if distance(x, v, x0, v0) > NEAR:
             continue
-        period, xs, vs = stable_orbit(cells, x, v, within, NEWTON_STEPS, MOST_TRACE, m, series)
-        before = distance(x, v, xs, vs)
-        if period > 0 and before <= NEAR:
-            status, x, v = march(cells, x, v, 20 * period, series)
-            if status != OK or distance(x, v, xs, vs) > max(before, RETURNED):
-                period = 0
-            return status, period, x, v, xs, vs
-    return OK, 0, x, v, x, v
-
-
-@allocating_kernel
-def settle(cells, x, v, n_transient, max_period, n_exponent, most, known, neighbourhoods, out, i, series):
-    """Follow one motion until it is settled and fill row `i` of `out`.
-
-    Where more than `most` mesh periods would be needed, the motion is followed for as many and not judged.
-    `neighbourhoods` are the known ones and room for `max_period` more.
-    """
-    m = np.empty((2, 2))
-    out.period[i] = 0
-    n_known = len(known.neighbourhoods)
-    enough = n_transient + n_exponent <= most
-    status, owner, period, x, v, xs, vs = follow(
-        cells, x, v, min(n_transient, most), max_period, n_known, neighbourhoods, out.way[i], m, series
-    )
-    out.attractor[i] = owner
-    out.final[i, 0], out.final[i, 1] = x, v
-    if owner >= 0:
-        copy_row(known.settled, owner, out, i)
-        return
-    if period == 0 and status == OK:
-        if not enough:
-            out.status[i] = EXHAUSTED
-            return
-        status, period, x, v, xs, vs = judge(cells, x, v, max_period, n_exponent, out, i, m, series)
-    if status != OK:
-        out.status[i] = GONE if status == ESCAPED else CAPPED
-        out.points[i], out.extremes[i] = np.nan, np.nan
-        return
-    if period > 0:
-        out.status[i] = PERIODIC
-        out.period[i] = period
-        for k in range(4):
-            out.monodromy[i, k // 2, k % 2] = m[k // 2, k % 2]
-        xs, vs = smallest_point(cells, xs, vs, period, series)
-        span = period * cells.period
-        out.exponents[i, 0] = np.log(spectral_radius(m)) / span
-        out.exponents[i, 1] = -2.0 * cells.damping_ratio - out.exponents[i, 0]
-        out.exponents[i, 2] = 0.0
-        _status, _x, _v, low, high, _drive, _coast = extremes(cells, xs, vs, period, series)
-        out.extremes[i, 0], out.extremes[i, 1] = low, high
-    else:
-        xs, vs = out.points[i, 0, 0], out.points[i, 0, 1]
-    x, v = xs, vs
-    for k in range(out.points.shape[1]):
-        if period > 0 and k % period == 0:
-            x, v = xs, vs
-        out.points[i, k, 0], out.points[i, k, 1] = x, v
-        _status, x, v = march(cells, x, v, 1, series)
-    if out.measures.shape[1] > 0:
-        measure(cells, xs, vs, period if period > 0 else n_exponent, series, out.measures[i])
+        orbit = stable_orbit(cells, x, v, within, NEWTON_STEPS, MOST_TRACE, work)
+        before = distance(x, v, orbit.x, orbit.v)
+        if orbit.period > 0 and before <= NEAR:
+            status, x, v = walk(cells, x, v, 20 * orbit.period, work.series)
+            if status != OK or distance(x, v, orbit.x, orbit.v) > max(before, RETURNED):
+                orbit = Orbit(0, x, v, 0)
+            return Course(status, x, v, -1, orbit)
+    return Course(OK, x, v, -1, Orbit(0, x, v, 0))
 
 
 @kernel
-def judge(cells, x, v, max_period, n_exponent, out, i, m, series):
-    """What a motion is that was not captured: (status, period, x, v, x*, v*), as of `approached`.
+def judge(cells: Cells, course: Course, limits: Limits, work: Scratch, out: Settled, i: int) -> Course:
+    """What a motion is that was not captured.
 
-    Of one that does not return, row `i` of `out` gets the exponents and extremes over `n_exponent` periods, and where
-    these began.
+    Of one that approaches no orbit, row `i` of `out` gets the exponents and extremes over `n_exponent` periods, and
+    where these began.
     """
-    status, period, x, v, xs, vs = approached(cells, x, v, max_period, m, series)
-    if period == 0 and status == OK:
-        out.points[i, 0, 0], out.points[i, 0, 1] = x, v
-        status, x, v, largest, smallest, error, low, high = exponents(cells, x, v, n_exponent, EXPONENT_BLOCKS, series)
-        out.exponents[i, 0], out.exponents[i, 1], out.exponents[i, 2] = largest, smallest, error
-        out.extremes[i, 0], out.extremes[i, 1] = low, high
-        if status == OK and largest > RESOLVED * error:
-            out.status[i] = APERIODIC
-        elif status == OK:
-            out.status[i] = UNSETTLED
-            status, period, x, v, xs, vs = approached(cells, x, v, max_period, m, series)
-    out.final[i, 0], out.final[i, 1] = x, v
-    return status, period, x, v, xs, vs
+    course = approached(cells, course.x, course.v, limits.max_period, work)
+    if course.orbit.period > 0 or course.status != OK:
+        return course
+    out.points[i, 0, 0], out.points[i, 0, 1] = course.x, course.v
+    per_block = max(1, limits.n_exponent // EXPONENT_BLOCKS)
+    status, x, v, largest, error = exponents(
+        cells, course.x, course.v, per_block, limits.n_exponent, EXPONENT_BLOCKS, work.reach
+    )
+    fill_exponents(cells, largest, error, out.exponents[i])
+    out.extremes[i, 0], out.extremes[i, 1] = work.reach[LOWEST], work.reach[HIGHEST]
+    if status == OK and not largest > RESOLVED * error:
+        out.status[i] = UNSETTLED
+        return approached(cells, x, v, limits.max_period, work)
+    out.status[i] = APERIODIC
+    return Course(status, x, v, -1, Orbit(0, x, v, 0))
+
+
+@kernel
+def fill_exponents(cells: Cells, largest: float, error: float, row: Array) -> None:
+    """Both exponents, whose sum is -2 zeta (Liouville), and the standard error."""
+    row[0], row[1], row[2] = largest, -2.0 * cells.damping_ratio - largest, error
 
 
 @allocating_kernel
-def copy_row(known, k, out, i):
+def settle(
+    cells: Cells, x: float, v: float, n_transient: int, limits: Limits, work: Scratch, out: Settled, i: int
+) -> None:
+    """Follow one motion until it is settled and fill row `i` of `out`."""
+    course = follow(cells, x, v, min(n_transient, limits.most), limits.max_period, out.way[i], work)
+    undecided = course.status == OK and course.owner < 0 and course.orbit.period == 0
+    exhausted = undecided and n_transient + limits.n_exponent > limits.most
+    if undecided and not exhausted:
+        course = judge(cells, course, limits, work, out, i)
+    out.attractor[i], out.final[i, 0], out.final[i, 1] = course.owner, course.x, course.v
+    if course.owner >= 0:
+        copy_row(work.known.settled, course.owner, out, i)
+    elif exhausted:
+        out.status[i] = EXHAUSTED
+    elif course.status != OK:
+        out.status[i] = GONE if course.status == ESCAPED else CAPPED
+        out.points[i], out.extremes[i] = np.nan, np.nan
+    elif course.orbit.period > 0:
+        describe_orbit(cells, course.orbit, work, out, i)
+    else:
+        describe_wandering(cells, limits.n_exponent, work, out, i)
+
+
+@allocating_kernel
+def describe_orbit(cells: Cells, orbit: Orbit, work: Scratch, out: Settled, i: int) -> None:
+    """Fill row `i` of `out` with what a stable orbit is."""
+    period, points, m = orbit.period, out.points[i], out.monodromy[i]
+    out.status[i], out.period[i] = PERIODIC, period
+    derivative(cells, orbit.x, orbit.v, period, m, work.series)
+    fill_exponents(cells, np.log(spectral_radius(m)) / (period * cells.period), 0.0, out.exponents[i])
+    x, v = smallest_point(cells, orbit.x, orbit.v, period, work.series)
+    begin_reach(work.reach, x)
+    walk(cells, x, v, period, work.series, None, work.reach)
+    out.extremes[i, 0], out.extremes[i, 1] = work.reach[LOWEST], work.reach[HIGHEST]
+    if out.measures.shape[1] > 0:
+        measure(cells, x, v, period, work.series, out.measures[i])
+    walk_points(cells, x, v, points[:period], work.series)
+    for k in range(period, len(points)):
+        points[k] = points[k - period]
+
+
+@allocating_kernel
+def describe_wandering(cells: Cells, n_exponent: int, work: Scratch, out: Settled, i: int) -> None:
+    """Fill row `i` of `out` with section points and measures of a motion that is not periodic, from its first on."""
+    x, v = out.points[i, 0, 0], out.points[i, 0, 1]
+    walk_points(cells, x, v, out.points[i], work.series)
+    if out.measures.shape[1] > 0:
+        measure(cells, x, v, n_exponent, work.series, out.measures[i])
+
+
+@kernel
+def walk_points(cells: Cells, x: float, v: float, points: Array, series: Array) -> None:
+    """Fill `points` (n, 2) with successive section points from (x, v) on."""
+    for k in range(len(points)):
+        points[k, 0], points[k, 1] = x, v
+        _status, x, v = walk(cells, x, v, 1, series)
+
+
+@allocating_kernel
+def copy_row(known: Settled, k: int, out: Settled, i: int) -> None:
     """What is known of attractor `k`, into row `i` of `out`."""
     out.status[i], out.period[i] = known.status[k], known.period[k]
     out.points[i], out.monodromy[i] = known.points[k], known.monodromy[k]
@@ -288,53 +346,37 @@ def copy_row(known, k, out, i):
 
 
 @kernel
-def smallest_point(cells, x, v, period, series):
+def smallest_point(cells: Cells, x: float, v: float, period: int, series: Array) -> tuple[float, float]:
     """The point of a cycle with the smallest X on the section; of points with the same X that with the smaller X'."""
     xs, vs = x, v
     for _ in range(period - 1):
-        _status, x, v = march(cells, x, v, 1, series)
+        _status, x, v = walk(cells, x, v, 1, series)
         if x < xs - SAME_POINT or (x <= xs + SAME_POINT and v < vs):
             xs, vs = x, v
     return xs, vs
 
 
 @allocating_kernel
-def scratch(known, max_period):
-    """The known neighbourhoods, with room for those of one more cycle."""
-    n = len(known.neighbourhoods)
-    neighbourhoods = np.empty((n + max_period, COLUMNS))
-    neighbourhoods[:n] = known.neighbourhoods
-    return neighbourhoods
-
-
-@allocating_kernel
-def settle_rows(first, last, lanes, chain, max_period, n_exponent, most, known, out):
+def settle_lanes(first: int, last: int, lanes: Lanes, chain: int, limits: Limits, known: Known, out: Settled) -> None:
     """`settle` for lanes `first` to `last`, which form chains of `chain` lanes each (1: every lane for itself).
 
     In a chain each lane but the first starts where the one before it ended, if that motion stayed bounded.
     """
-    series = np.empty(TERMS)
-    neighbourhoods = scratch(known, max_period)
+    work = make_scratch(known, limits.max_period)
+    built = lanes.own[first]
+    cells = build_cells(parameters_of(lanes, built))
     for i in range(first, last):
+        if lanes.own[i] != built:
+            built = lanes.own[i]
+            cells = build_cells(parameters_of(lanes, built))
         x, v = lanes.starts[i, 0], lanes.starts[i, 1]
         if i % chain != 0 and out.status[i - 1] < GONE:
             x, v = out.final[i - 1, 0], out.final[i - 1, 1]
-        cells = build_cells(parameters_of(lanes, i))
-        settle(cells, x, v, lanes.n_transient[i], max_period, n_exponent, most, known, neighbourhoods, out, i, series)
+        settle(cells, x, v, lanes.n_transient[i], limits, work, out, i)
 
 
 @allocating_kernel
-def settle_starts(first, last, cells, starts, n_transient, max_period, n_exponent, most, known, out):
-    """`settle` from rows `first` to `last` of `starts` (n, 2), all of one oscillator."""
-    series = np.empty(TERMS)
-    neighbourhoods = scratch(known, max_period)
-    for i in range(first, last):
-        x, v = starts[i, 0], starts[i, 1]
-        settle(cells, x, v, n_transient, max_period, n_exponent, most, known, neighbourhoods, out, i, series)
-
-
-@allocating_kernel
-def surround_rows(cells, points, periods, rows):
+def surround_rows(cells: Cells, points: Array, periods: Integers, rows: Array) -> int:
     """Neighbourhoods of the cycles through `points` (n, 2), filled into `rows`: how many there are."""
     series = np.empty(TERMS)
     filled = 0

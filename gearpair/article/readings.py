@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import product
 from typing import Literal
 
 import numpy as np
@@ -115,41 +113,3 @@ class Hypothesis:
 
 PRINTED = Hypothesis()
 SWAPPED = Hypothesis(stiff_for="2 - eps")
-
-
-def all_hypotheses() -> tuple[Hypothesis, ...]:
-    """Every combination of the readings of a rectangle, the phase in quarter turns, and one harmonic in its place.
-
-    The damping at the wave's mean is left out where that mean is one: it is then the article's own. One harmonic is
-    combined with durations, order and phase only.
-
-    Examples
-    --------
-    >>> len(all_hypotheses()), all_hypotheses()[0] == PRINTED
-    (176, True)
-    """
-    orders = list(product(("eps - 1", "2 - eps"), ("stiff", "soft"), FORCINGS))
-    scalings = [
-        (force, mean, damping)
-        for force, mean, damping in product(
-            ("Omega^2", "constant"), ("as printed", "one"), ("2 zeta", "zeta", "2 zeta sqrt(mean)")
-        )
-        if (mean, damping) != ("one", "2 zeta sqrt(mean)")
-    ]
-    rectangles = [
-        Hypothesis(stiff_for=s, first=i, phase=p, force=f, mean=m, damping=d)  # type: ignore[arg-type]
-        for (s, i, p), (f, m, d) in product(orders, scalings)
-    ]
-    harmonics = [
-        Hypothesis(stiff_for=s, first=i, phase=p, shape="first harmonic")  # type: ignore[arg-type]
-        for s, i, p in orders
-    ]
-    return (*rectangles, *harmonics)
-
-
-def by_levels(hypotheses: Sequence[Hypothesis]) -> list[list[int]]:
-    """The places of hypotheses whose waves have equally many levels, which can be followed side by side."""
-    places: dict[int, list[int]] = {}
-    for i, hypothesis in enumerate(hypotheses):
-        places.setdefault(len(hypothesis.wave.levels), []).append(i)
-    return list(places.values())

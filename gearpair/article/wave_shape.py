@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gearpair.ensembles.sweeps import sweep
 from gearpair.motion.names import motions_of
-from gearpair.motion.sweeps import sweep
 from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
 

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from gearpair._flow.cells import Parameters
 from gearpair._flow.cycle import cycle_at
-from gearpair._flow.march import OK
+from gearpair._flow.records import Extrema
+from gearpair._flow.walk import OK
 
 MAX_EXTREMA_PER_PERIOD = 64
 
@@ -87,9 +88,11 @@ class Cycle:
 def describe_cycle(parameters: Parameters, x: float, v: float, period: int) -> Cycle:
     """The cycle of `period` mesh periods through (x, v), which is closed as far as its residual says."""
     points, monodromy = np.empty((period, 2)), np.empty((2, 2))
-    extrema = np.empty((MAX_EXTREMA_PER_PERIOD * period, 2))
-    status, residual, n, drive, coast = cycle_at(parameters, x, v, points, monodromy, extrema)
-    reached = np.concatenate([extrema[:n, 1], points[:, 0]])
+    found = Extrema(np.empty((MAX_EXTREMA_PER_PERIOD * period, 2)), np.zeros(3, np.int64))
+    status, residual = cycle_at(parameters, x, v, points, monodromy, found)
+    n, drive, coast = found.counts.tolist()
+    extrema = found.rows[:n].copy()
+    reached = np.concatenate([extrema[:, 1], points[:, 0]])
     return Cycle(
         points=points,
         monodromy=monodromy,
@@ -97,5 +100,5 @@ def describe_cycle(parameters: Parameters, x: float, v: float, period: int) -> C
         x_min=float(reached.min()),
         x_max=float(reached.max()),
         contacts=(drive, coast),
-        extrema=extrema[:n].copy(),
+        extrema=extrema,
     )

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._flow.cells import Parameters
-from gearpair._flow.cycle import map_at, plain_map_at
-from gearpair._flow.march import OK
+from gearpair._flow.cycle import maps_at
+from gearpair._flow.walk import OK
 from gearpair.bifurcations._arclength import Vector
 from gearpair.bifurcations._cycle import Cycle, describe_cycle
 from gearpair.oscillator import SCALARS, Oscillator
@@ -45,22 +45,20 @@ class OrbitProblem:
 
     def equations(self, u: Vector) -> tuple[Vector, NDArray[np.float64]] | None:
         """Residual and Jacobian; None where the motion cannot be followed."""
+        steps = DIFFERENCE * np.maximum(1.0, np.abs(u[2:]))
+        asides = np.zeros((len(steps), len(u)))
+        asides[:, 2:] = np.diag(steps)
         try:
-            monodromy = np.empty((2, 2))
-            status, x, v = map_at(self.parameters(u), u[0], u[1], self.period, monodromy)
-            jacobian = np.empty((2, len(u)))
-            jacobian[:, :2] = monodromy - np.eye(2)
-            for k in range(2, len(u)):
-                step = np.zeros(len(u))
-                step[k] = DIFFERENCE * max(1.0, abs(u[k]))
-                right = plain_map_at(self.parameters(u + step), u[0], u[1], self.period)
-                left = plain_map_at(self.parameters(u - step), u[0], u[1], self.period)
-                if status != OK or right[0] != OK or left[0] != OK:
-                    return None
-                jacobian[:, k] = (np.array(right[1:]) - np.array(left[1:])) / (2.0 * step[k])
+            here = self.parameters(u)
+            beside = tuple(self.parameters(u + side) for aside in asides for side in (aside, -aside))
         except ValueError:  # a wave parameter out of range
             return None
-        return np.array([x - u[0], v - u[1]]), jacobian
+        monodromy, ends = np.empty((2, 2)), np.empty((len(beside), 2))
+        status, x, v = maps_at(here, beside, u[0], u[1], self.period, monodromy, ends)
+        if status != OK:
+            return None
+        slopes = (ends[::2] - ends[1::2]) / (2.0 * steps[:, np.newaxis])
+        return np.array([x - u[0], v - u[1]]), np.hstack([monodromy - np.eye(2), slopes.T])
 
     def cycle(self, u: Vector) -> Cycle:
         """The orbit at a solution `u`."""

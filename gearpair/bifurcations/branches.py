@@ -13,7 +13,7 @@ from gearpair.bifurcations._arclength import Step, Vector
 from gearpair.bifurcations._cycle import Cycle
 from gearpair.bifurcations._orbit_problem import OrbitProblem
 from gearpair.bifurcations._walk import End, walk_both_ways
-from gearpair.bifurcations.locating import Bifurcation, _bifurcations, _merging
+from gearpair.bifurcations.locating import Bifurcation, bifurcations_between, merging
 from gearpair.bifurcations.orbits import PeriodicOrbit
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.stability import multipliers_of
@@ -154,7 +154,7 @@ def continue_orbit(
         largest=largest_step,
         max_steps=max_steps,
     )
-    found = [(b, i) for i, (a, c) in enumerate(pairwise(steps)) for b in _bifurcations(problem, a, c)]
+    found = [(b, i) for i, (a, c) in enumerate(pairwise(steps)) for b in bifurcations_between(problem, a, c)]
     cycles = [step.data for step in steps]
     multipliers = multipliers_of(np.array([c.monodromy for c in cycles]).reshape(-1, 2, 2))
     return Branch(
@@ -199,7 +199,7 @@ class _BranchProblem(OrbitProblem):
 
     def ending(self, last: Step[Cycle], step: Step[Cycle]) -> tuple[list[Step[Cycle]], End] | None:
         """The end of a walk at `step`, if it is one."""
-        merged = _merging(self, last, step)
+        merged = merging(self, last, step)
         if merged is not None:
             return [merged], End.MERGED
         if max(-step.data.x_min, step.data.x_max) > largest_x(self.osc):

@@ -53,7 +53,7 @@ class Bifurcation:
     impact_state: ImpactState
 
 
-def _merging(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> Step[Cycle] | None:
+def merging(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> Step[Cycle] | None:
     """Where the points half a period apart meet between two steps, if they do: the flip of the shorter orbit.
 
     There the doubled branch and the shorter orbit's own cross, so the flip's own equations are solved.
@@ -105,7 +105,7 @@ def _locate(
     return Step(*found, problem.cycle(found[0])) if found is not None else None
 
 
-def _bifurcations(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> list[Bifurcation]:
+def bifurcations_between(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> list[Bifurcation]:
     """Every bifurcation between two steps, in order along the chord."""
     found: list[tuple[Kind, Step[Cycle], tuple[int, int], tuple[int, int]]] = []
     tests: list[tuple[Kind, Callable[[Cycle], float]]] = [

@@ -10,10 +10,7 @@ from numpy.typing import NDArray
 
 from gearpair._checks import check_count
 from gearpair._cores import on_all_cores
-from gearpair._flow.closed_form import TERMS
-from gearpair._flow.cycle import newton_starts
-from gearpair._flow.march import march
-from gearpair._flow.tangent import newton
+from gearpair._flow.newton import newton_starts
 from gearpair.bifurcations._cycle import describe_cycle
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.names import Motion, periodic
@@ -22,7 +19,6 @@ from gearpair.motion.stability import multipliers_of
 from gearpair.motion.trajectories import check_start, check_starts
 from gearpair.oscillator import Oscillator
 
-SAME_POINT = 1e-9  # section points of one orbit closer than this are one
 STARTS_AT_ONCE = 16  # of Newton searches, between two chances to stop
 
 
@@ -147,19 +143,20 @@ def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> Periodic
     """
     x, v = check_start(x, v)
     period = check_count("period", period)
-    converged, x, v, residual = newton(osc.cells, x, v, period, np.empty((2, 2)), np.empty(TERMS))
-    if not converged:
-        return PeriodicOrbit(osc, NewtonStatus.DIVERGED, period, np.array([[x, v]]), residual)
-    return orbit_at(osc, x, v, _minimal_period(osc, x, v, period))
+    ends, periods, residuals = _newton(osc, np.array([[x, v]]), period)
+    if periods[0] == 0:
+        return PeriodicOrbit(osc, NewtonStatus.DIVERGED, period, ends, float(residuals[0]))
+    return orbit_at(osc, *ends[0].tolist(), int(periods[0]))
 
 
-def _minimal_period(osc: Oscillator, x: float, v: float, period: int) -> int:
-    series, here = np.empty(TERMS), (x, v)
-    for shorter in range(1, period):
-        _, *here = march(osc.cells, *here, 1, series)
-        if period % shorter == 0 and max(abs(here[0] - x), abs(here[1] - v)) <= SAME_POINT * max(1.0, abs(x), abs(v)):
-            return shorter
-    return period
+def _newton(
+    osc: Oscillator, starts: NDArray[np.float64], period: int
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]:
+    """Where Newton's method ends from each start (n, 2), the orbit's own period (0: none found) and the residual."""
+    n = len(starts)
+    ends, periods, residuals = np.empty_like(starts), np.zeros(n, np.int64), np.empty(n)
+    on_all_cores(newton_starts, (osc.cells, starts, period, ends, periods, residuals), n, STARTS_AT_ONCE)
+    return ends, periods, residuals
 
 
 def orbit_at(osc: Oscillator, x: float, v: float, period: int) -> PeriodicOrbit:
@@ -225,9 +222,8 @@ def find_orbits(
     starts = np.array([x_low, v_low]) + spread * np.array([x_high - x_low, v_high - v_low])
     orbits: list[PeriodicOrbit] = []
     for period in range(1, max_period + 1):
-        ends, found = np.empty_like(starts), np.zeros(n_starts, np.bool_)
-        on_all_cores(newton_starts, (osc.cells, starts, period, ends, found), n_starts, STARTS_AT_ONCE)
-        for x_end, v_end in ends[found].tolist():
-            if not any(lies_on((x_end, v_end), orbit.points) for orbit in orbits):
-                orbits.append(orbit_at(osc, x_end, v_end, _minimal_period(osc, x_end, v_end, period)))
+        ends, periods, _residuals = _newton(osc, starts, period)
+        for end, own in zip(ends.tolist(), periods.tolist(), strict=True):
+            if own and not any(lies_on(end, orbit.points) for orbit in orbits):
+                orbits.append(orbit_at(osc, *end, own))
     return sorted(orbits, key=lambda orbit: (orbit.period, orbit.points[0, 0]))

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from itertools import groupby, pairwise
 
 import numpy as np
 
 from gearpair.bifurcations.branches import Branch
-from gearpair.motion.names import Motion, periodic
-from gearpair.motion.ranges import MotionRange, joined_ranges
+from gearpair.bifurcations.locating import Bifurcation
+from gearpair.ensembles.datasets import symbol
+from gearpair.ensembles.ranges import MotionRange, joined_ranges
+from gearpair.motion.names import IMPACT_NAMES, Motion, periodic
+from gearpair.table import Table
 
 SNAP = 2e-4  # relative distance within which the end of a stable range is the bifurcation found there
 
@@ -127,3 +131,102 @@ def _edge(branch: Branch, i: int, j: int) -> float:
     if not fitting:
         return float(0.5 * (branch.values[i] + branch.values[j]))
     return fitting[0] if branch.stable[i] else fitting[-1]
+
+
+def bifurcation_table(branches: Iterable[Branch], *, digits: int = 5) -> Table:
+    """Every bifurcation of a set of branches, by rising parameter.
+
+    Parameters
+    ----------
+    branches : iterable of Branch
+        Along one parameter.
+    digits : int
+        Decimals of the parameter.
+
+    Returns
+    -------
+    Table
+        Kind, value, the orbit's period, contacts per cycle on the drive and coast side (before and after
+        a grazing), and impact state.
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, continue_orbit, periodic_orbit
+    >>> orbit = periodic_orbit(Oscillator(), 0.34629, -0.25625, 2)
+    >>> bifurcation_table([continue_orbit(orbit, "mesh_frequency", 0.7, 0.78)])
+    kind  Omega_h  period  contacts  impact state
+    ---------------------------------------------
+    flip  0.76601       2  2 + 0     single-sided
+    """
+    found = sorted((b for branch in branches for b in branch.bifurcations), key=lambda b: (b.value, b.kind))
+    rows = [[b.kind, f"{b.value:.{digits}f}", b.period, _contacts(b), IMPACT_NAMES[b.impact_state]] for b in found]
+    value = symbol(found[0].parameter) if found else "value"
+    return Table(["kind", value, "period", "contacts", "impact state"], rows)
+
+
+def _contacts(bifurcation: Bifurcation) -> str:
+    """Contacts per cycle (drive + coast), on both sides of a grazing."""
+    first, second = (f"{drive} + {coast}" for drive, coast in bifurcation.contacts)
+    return first if first == second else f"{first} | {second}"
+
+
+def coexistence_table(
+    branches: Sequence[Branch], lower: float, upper: float, *, shortest: float, digits: int = 4
+) -> Table:
+    """Which stable orbits of a set of branches exist together, one row a range; see `coexistence`.
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, continue_orbit, periodic_orbit
+    >>> orbit = periodic_orbit(Oscillator(), 0.34629, -0.25625, 2)
+    >>> coexistence_table([continue_orbit(orbit, "mesh_frequency", 0.7, 0.78)], 0.72, 0.78, shortest=0.001)
+      from      to  stable orbits
+    ------------------------------------------------------
+    0.7200  0.7660  period 2 (single-sided)
+    0.7660  0.7800  none up to the longest period followed
+    """
+    rows = []
+    for low, high, motions in coexistence(list(branches), lower, upper, shortest=shortest):
+        words = [(f"{m.kind} ({IMPACT_NAMES[m.impact_state or '']})", n) for m, n in Counter(motions).items()]
+        text = ", ".join(word if n == 1 else f"{n} of {word}" for word, n in words)
+        rows.append([f"{low:.{digits}f}", f"{high:.{digits}f}", text or "none up to the longest period followed"])
+    return Table(["from", "to", "stable orbits"], rows)
+
+
+def cascade_table(cascades: Iterable[Sequence[Bifurcation]], *, digits: int = 6) -> Table:
+    """Period-doubling sequences, one row each: the first flips and the ratios of the gaps between them.
+
+    Parameters
+    ----------
+    cascades : iterable of sequences of Bifurcation
+        Of `doubling_cascade`.
+    digits : int
+        Decimals of the parameter.
+
+    Returns
+    -------
+    Table
+        The sequence of periods, its flips, and the ratios of successive gaps (4.669 in the limit).
+
+    Examples
+    --------
+    >>> from gearpair import Oscillator, continue_orbit, periodic_orbit
+    >>> from gearpair.bifurcations import doubling_cascade
+    >>> orbit = periodic_orbit(Oscillator(), 0.34629, -0.25625, 2)
+    >>> flip = continue_orbit(orbit, "mesh_frequency", 0.7, 0.78).bifurcations[0]
+    >>> cascade_table([doubling_cascade(flip, 3)], digits=4).rows[0]
+    ('2 4 8', '0.7660 0.7983 0.8067', '3.84')
+    """
+    rows = []
+    for flips in cascades:
+        values = [flip.value for flip in flips]
+        gaps = np.diff(values)
+        ratios = gaps[:-1] / gaps[1:]
+        rows.append(
+            [
+                " ".join(str(flip.period) for flip in flips),
+                " ".join(f"{value:.{digits}f}" for value in values),
+                " ".join(f"{ratio:.2f}" for ratio in ratios),
+            ]
+        )
+    return Table(["periods", "flips at", "ratios of the gaps"], rows)

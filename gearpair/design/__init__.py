@@ -7,7 +7,7 @@ from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import LinearResponse, linear_response
 from gearpair.design.loads import measure_motion
 from gearpair.design.sensitivities import sensitivity
-from gearpair.design.verdicts import SpeedRange, speeds_to_avoid
+from gearpair.design.speed_ranges import SpeedRange, speed_range_table, speeds_to_avoid
 
 __all__ = [
     "IdleRattle",
@@ -23,5 +23,6 @@ __all__ = [
     "measure_motion",
     "sensitivity",
     "speed_chart",
+    "speed_range_table",
     "speeds_to_avoid",
 ]

@@ -13,7 +13,7 @@ from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import linear_response
 from gearpair.design.loads import MEASURES, measure_motion, same_motion
 from gearpair.drive import GearDrive
-from gearpair.motion.settling import SettleSettings, settle_lanes
+from gearpair.motion.settling import SettleSettings, settle_batch
 from gearpair.motion.steady import SteadyState, describe
 from gearpair.oscillator import Oscillator
 
@@ -154,7 +154,7 @@ def carried_runs(
     n = len(ranges[0])
     lanes = [osc for each in ranges for osc in (*each, *each[::-1])]
     starts = np.array([(1.0 + max(osc.mean_force, 0.0) / osc.stiffness.mean, 0.0) for osc in lanes])
-    out = settle_lanes(lanes, starts, settle_settings(n_transient), chain=n, progress=progress)
+    out = settle_batch(lanes, starts, settle_settings(n_transient), chain=n, progress=progress)
     states = [describe(osc, out, i) for i, osc in enumerate(lanes)]
     return [(states[i : i + n], states[i + n : i + 2 * n][::-1]) for i in range(0, len(states), 2 * n)]
 
@@ -165,11 +165,11 @@ def settled_starts(
     """The motions that `spread_starts` lead to, for each oscillator."""
     if not n_starts:
         return [[] for _ in oscillators]
-    lanes = [osc for osc in oscillators for _ in range(n_starts)]
     starts = np.concatenate([spread_starts(osc, n_starts) for osc in oscillators])
-    out = settle_lanes(lanes, starts, settle_settings(n_transient), progress=progress)
-    states = [describe(osc, out, i) for i, osc in enumerate(lanes)]
-    return [states[i : i + n_starts] for i in range(0, len(states), n_starts)]
+    out = settle_batch(oscillators, starts, settle_settings(n_transient), progress=progress)
+    return [
+        [describe(osc, out, i) for i in range(k * n_starts, (k + 1) * n_starts)] for k, osc in enumerate(oscillators)
+    ]
 
 
 def spread_starts(osc: Oscillator, n: int) -> NDArray[np.float64]:

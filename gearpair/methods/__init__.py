@@ -1,8 +1,17 @@
 """Other ways to the same motion, what they cost, and the certificates of the exact one taken apart."""
 
-from gearpair.methods.certificates import CertifiedStep, Segment, certificate_examples, segments
+from gearpair.methods.certificates import (
+    CertifiedStep,
+    Segment,
+    certificate_examples,
+    certificate_table,
+    segments,
+    series_table,
+)
 from gearpair.methods.precision import (
     Precision,
+    coarse_share,
+    disorder_table,
     impact_time_error,
     numerical_chaos,
     plain_sweep,
@@ -18,6 +27,9 @@ __all__ = [
     "Precision",
     "Segment",
     "certificate_examples",
+    "certificate_table",
+    "coarse_share",
+    "disorder_table",
     "impact_time_error",
     "integrated_trajectory",
     "numerical_chaos",
@@ -26,6 +38,7 @@ __all__ = [
     "runge_kutta_sweep",
     "section_period",
     "segments",
+    "series_table",
     "split_levels",
     "work_precision",
 ]

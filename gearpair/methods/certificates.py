@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
-from gearpair._flow.cells import START, WIDTH
-from gearpair._flow.closed_form import TERMS, evaluate_jerk
-from gearpair._flow.event_search import INSIDE, MAX_STEPS, MONOTONE, ROUNDING, UNDECIDED, certified_step
-from gearpair._flow.march import EVENT_UNDECIDED, first_region, next_segment, region_after, start_segment
-from gearpair.motion.trajectories import check_starts, raise_unless_ok
+from gearpair._flow.closed_form import DEGREE, REACH, TERMS, evaluate_jerk
+from gearpair._flow.event_search import MAX_STEPS, MONOTONE, ROUNDING, certified_step
+from gearpair._flow.records import SEGMENT_COLUMNS, Segments
+from gearpair._flow.walk import EVENT_UNDECIDED, Details, walk
+from gearpair.motion.trajectories import check_start, raise_unless_ok
 from gearpair.oscillator import Oscillator
+from gearpair.table import Table
 
 
 @dataclass(frozen=True)
@@ -202,31 +203,19 @@ def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Se
     >>> sum(piece.crossing is not None for piece in pieces) == len(impacts)
     True
     """
-    xs, vs = check_starts(x, v)
-    if xs.ndim:
-        raise ValueError(f"x and v must be single numbers, got shape {xs.shape}")
+    x, v = check_start(x, v)
     n_periods = check_count("n_periods", n_periods)
-    cells = osc.cells
-    series = np.empty(TERMS)
-    x, v = float(xs), float(vs)
-    region = first_region(cells, x, v)
-    found: list[Segment] = []
-    for period in range(n_periods):
-        for j in range(len(cells.level)):
-            clock = cells.clock[j]
-            width, t, outcome = clock[WIDTH] / cells.period, 0.0, -1
-            while outcome != INSIDE:
-                fourth = start_segment(cells, j, t, x, v, region, series)
-                start, here = period + clock[START] + t * width, region
-                outcome, duration, x, v = next_segment(cells, j, t, x, v, region, series)
-                if outcome == UNDECIDED:
-                    raise_unless_ok(EVENT_UNDECIDED, period)
-                crossing = None if outcome == INSIDE else float(duration)
-                found.append(Segment(float(start), float(width), here, series.copy(), 1.0 - t, fourth, crossing))
-                if outcome != INSIDE:
-                    t += duration
-                    region = region_after(region, x)
-    return found
+    rows = np.empty((0, SEGMENT_COLUMNS))
+    for _ in range(2):  # once to count the segments, once to list them
+        counts = np.zeros(1, np.int64)
+        details = Details(segments=Segments(rows, counts))
+        status, _x, _v = walk(osc.cells, x, v, n_periods, np.empty(TERMS), None, None, details)
+        raise_unless_ok(status, n_periods)
+        rows = np.empty((int(counts[0]), SEGMENT_COLUMNS)) if len(rows) == 0 else rows
+    return [
+        Segment(start, width, int(region), row[-TERMS:], rest, fourth, crossing if crossing >= 0.0 else None)
+        for row, (start, width, region, rest, fourth, crossing) in zip(rows, rows[:, :-TERMS].tolist(), strict=True)
+    ]
 
 
 def certificate_examples(pieces: Iterable[Segment]) -> dict[str, Segment | None]:
@@ -276,3 +265,54 @@ def _closest(piece: Segment) -> float:
     x = piece(np.linspace(0.0, piece.span, 65))
     distance = np.minimum(x - floor, ceiling - x)
     return float(distance.min()) if 0 < distance.argmin() < 64 else np.inf
+
+
+def certificate_table(pieces: Iterable[Segment]) -> Table:
+    """How many segments each certificate settles, and how many of these hold a crossing.
+
+    Parameters
+    ----------
+    pieces : iterable of Segment
+
+    Returns
+    -------
+    Table
+
+    Examples
+    --------
+    >>> from gearpair.methods import segments
+    >>> len(certificate_table(segments(Oscillator(), 1.0, 0.0)).rows)
+    3
+    """
+    kinds = [(piece.certificate, piece.crossing is not None) for piece in pieces]
+    rows = [
+        [f"{i}. {name}", sum(kind == name for kind, _ in kinds), kinds.count((name, True))]
+        for i, name in enumerate(("hull", "monotone", "steps"), start=1)
+    ]
+    return Table(["certificate", "segments", "with a crossing"], rows)
+
+
+def series_table(osc: Oscillator) -> Table:
+    """The constants of the power series and the cells that `osc` needs.
+
+    Parameters
+    ----------
+    osc : Oscillator
+
+    Returns
+    -------
+    Table
+
+    Examples
+    --------
+    >>> series_table(Oscillator()).rows[0]
+    ('degree of the series', '15')
+    """
+    neglected = REACH**TERMS / float(np.prod(np.arange(1.0, TERMS + 1)))
+    rows = [
+        ["degree of the series", f"{DEGREE}"],
+        ["reach: the most that a rate turns in a cell", f"{REACH:.1f}"],
+        ["first neglected term", f"{neglected:.0e}"],
+        ["cells in the mesh period", f"{len(osc.cells.level)}"],
+    ]
+    return Table(["of the closed form", "value"], rows)

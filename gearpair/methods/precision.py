@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
@@ -12,12 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
+from gearpair.ensembles.datasets import attributes, oscillators_along
 from gearpair.methods.runge_kutta import runge_kutta_section, section_period
 from gearpair.methods.solvers import integrated_trajectory
-from gearpair.motion.datasets import attributes, oscillators_along
 from gearpair.motion.trajectories import Impacts, stroboscopic_map, trajectory
 from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
+from gearpair.table import Table
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -270,3 +271,59 @@ def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:
     if not np.array_equal(exact[parameter].values, drawn[parameter].values):
         raise ValueError(f"both diagrams must be of the same values of {parameter}")
     return (exact.status.values == "periodic") & (drawn.period.values == 0)
+
+
+def disorder_table(exact: xr.Dataset, drawn: Mapping[str, xr.Dataset]) -> Table:
+    """How often a diagram shows disorder where the motion is periodic, and a period where it is not.
+
+    Parameters
+    ----------
+    exact : xarray.Dataset
+        Of `sweep`.
+    drawn : mapping of str to xarray.Dataset
+        Diagrams of the same values by name, of `runge_kutta_sweep` or `plain_sweep`.
+
+    Returns
+    -------
+    Table
+        Shares of the values, as `coarse_share` writes them.
+
+    Examples
+    --------
+    >>> from gearpair import sweep
+    >>> from gearpair.methods import runge_kutta_sweep
+    >>> osc, values = Oscillator(), [1.65, 1.7]
+    >>> exact = sweep(osc, "mesh_frequency", values)
+    >>> disorder_table(exact, {"RK45": runge_kutta_sweep(osc, "mesh_frequency", values)})
+    drawn by  disordered though periodic  periodic though not
+    ---------------------------------------------------------
+    RK45      all                         under 10%
+    """
+    rows = []
+    for name, diagram in drawn.items():
+        missed = (exact.status.values != "periodic") & (diagram.period.values > 0)
+        rows.append([name, coarse_share(numerical_chaos(exact, diagram)), coarse_share(missed)])
+    return Table(["drawn by", "disordered though periodic", "periodic though not"], rows)
+
+
+def coarse_share(where: ArrayLike) -> str:
+    """The share of true values, so coarse that rounding on another machine hardly changes it.
+
+    Parameters
+    ----------
+    where : array_like of bool
+
+    Returns
+    -------
+    str
+        To the nearest 10%; ``"under 10%"`` and ``"over 90%"`` near the ends, ``"all"`` if all are.
+
+    Examples
+    --------
+    >>> coarse_share([True, False, False]), coarse_share([True] * 29 + [False]), coarse_share([False])
+    ('30%', 'over 90%', 'under 10%')
+    """
+    share = float(np.mean(np.asarray(where, dtype=bool)))
+    if share == 1.0:
+        return "all"
+    return "under 10%" if share < 0.1 else "over 90%" if share > 0.9 else f"{round(share, 1):.0%}"

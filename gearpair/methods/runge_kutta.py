@@ -11,9 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_choice, check_count, check_number
 from gearpair._cores import on_all_cores
-from gearpair._flow.runge_kutta import COMPLETE, integrate_fixed_rows, integrate_rows
-from gearpair._flow.settle import Lanes
-from gearpair.motion.datasets import attributes, oscillators_along
+from gearpair._flow.runge_kutta import COMPLETE, Steps, integrate_lanes
+from gearpair.ensembles.datasets import attributes, oscillators_along
 from gearpair.motion.settling import SettleSettings, lanes_of
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
@@ -73,7 +72,7 @@ def runge_kutta_section(
     n_kept = n_periods + 1 if n_kept is None else check_count("n_kept", n_kept)
     if n_kept > n_periods + 1:
         raise ValueError(f"n_kept must be at most n_periods + 1 = {n_periods + 1}, got {n_kept}")
-    points, status, _calls = _adaptive([osc], x, v, n_periods, n_kept, rtol, atol, chain=1)
+    points, status, _calls = _sections([osc], x, v, n_periods, n_kept, _adaptive(rtol, atol, n_periods), chain=1)
     if status[0] != COMPLETE:
         raise RuntimeError("RK45 gave up: the motion escapes to infinity, or rtol and atol are too small to reach")
     return points[0]
@@ -130,8 +129,9 @@ def runge_kutta_sweep(
     n_transient = check_count("n_transient", n_transient, at_least=0)
     n_samples = check_count("n_samples", n_samples, at_least=2)
     check_number("closeness", closeness, above=0.0)
-    points, status, calls = _adaptive(
-        oscillators, x, v, n_transient + n_samples - 1, n_samples, rtol, atol,
+    n_periods = n_transient + n_samples - 1
+    points, status, calls = _sections(
+        oscillators, x, v, n_periods, n_samples, _adaptive(rtol, atol, n_periods),
         chain=len(oscillators) if seeding == "carry" else 1,
     )  # fmt: skip
     points[status != COMPLETE] = np.nan
@@ -241,46 +241,36 @@ class Integrator:
         >>> Integrator(steps=400).sections([Oscillator()], 1.0, 0.0, 500, 2)[0].round(3).tolist()
         [[0.349, -0.256], [0.926, -0.281]]
         """
-        n, n_periods = len(oscillators), n_discarded + n_kept - 1
-        if self.rtol is not None:
-            points, status, _ = _adaptive(
-                oscillators, x, v, n_periods, n_kept, self.rtol, 1e-3 * self.rtol, chain=chain, steps=self.steps or 0
-            )
+        n_periods = n_discarded + n_kept - 1
+        if self.rtol is None:
+            steps = Steps(0.0, 0.0, self.steps or 0, 0)
         else:
-            lanes = _lanes(oscillators, x, v)
-            points, status = np.empty((n, n_kept, 2)), np.empty(n, np.int64)
-            arguments = (lanes, chain, n_periods, self.steps, points, status)
-            on_all_cores(integrate_fixed_rows, arguments, n, chain)
+            steps = _adaptive(self.rtol, 1e-3 * self.rtol, n_periods, self.steps or 0)
+        points, status, _calls = _sections(oscillators, x, v, n_periods, n_kept, steps, chain=chain)
         points[status != COMPLETE] = np.nan
         return points
 
 
-def _lanes(oscillators: Sequence[Oscillator], x: float, v: float) -> Lanes:
-    return lanes_of(
-        oscillators, np.broadcast_to(check_start(x, v), (len(oscillators), 2)), SettleSettings(n_transient=0)
-    )
-
-
-def _adaptive(
+def _sections(
     oscillators: Sequence[Oscillator],
     x: float,
     v: float,
     n_periods: int,
     n_kept: int,
-    rtol: float,
-    atol: float,
+    steps: Steps,
     *,
     chain: int,
-    steps: int = 0,
 ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
     """Section points (n, n_kept, 2), status (n,) and calls of the right-hand side (n,)."""
-    check_number("rtol", rtol, above=0.0)
-    check_number("atol", atol, above=0.0)
     n = len(oscillators)
-    points, status, calls = np.empty((n, n_kept, 2)), np.empty(n, np.int64), np.empty(n, np.int64)
-    limit = MAX_STEPS_PER_PERIOD * n_periods
-    arguments = (
-        _lanes(oscillators, x, v), chain, n_periods, float(rtol), float(atol), steps, limit, points, status, calls,
-    )  # fmt: skip
-    on_all_cores(integrate_rows, arguments, n, chain)
-    return points, status, calls
+    starts = np.broadcast_to(check_start(x, v), (n, 2))
+    lanes = lanes_of(oscillators, starts, SettleSettings(n_transient=0))
+    points, counts = np.empty((n, n_kept, 2)), np.zeros((n, 2), np.int64)
+    on_all_cores(integrate_lanes, (lanes, chain, n_periods, steps, points, counts), n, chain)
+    return points, counts[:, 0], counts[:, 1]
+
+
+def _adaptive(rtol: float, atol: float, n_periods: int, per_period: int = 0) -> Steps:
+    """The steps of RK45 over `n_periods`."""
+    rtol, atol = check_number("rtol", rtol, above=0.0), check_number("atol", atol, above=0.0)
+    return Steps(rtol, atol, per_period, MAX_STEPS_PER_PERIOD * n_periods)

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from gearpair._checks import check_count
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.march import OK
-from gearpair._flow.observe import (
+from gearpair._flow.measures import (
     FORCE,
     HIGHEST,
     IMPACTS,
@@ -22,8 +21,9 @@ from gearpair._flow.observe import (
     SHARE,
     VELOCITY,
     VELOCITY_SUM,
-    measure,
 )
+from gearpair._flow.observe import measure
+from gearpair._flow.walk import OK
 from gearpair.motion.settling import Status
 from gearpair.motion.steady import SteadyState
 

@@ -16,12 +16,13 @@ from tqdm import tqdm
 from gearpair._checks import check_count
 from gearpair._cores import on_all_cores
 from gearpair._flow.capture import COLUMNS
-from gearpair._flow.observe import N_MEASURES
-from gearpair._flow.settle import NOT_RUN, Known, Lanes, Settled, settle_rows
+from gearpair._flow.measures import N_MEASURES
+from gearpair._flow.settle import NOT_RUN, Known, Lanes, Limits, Settled, settle_lanes
 from gearpair.oscillator import Oscillator
 
 UNLIMITED = 2**62
-BLOCK = 8  # motions between two moves of the progress bar, and between two chances to stop
+# Motions between two moves of the progress bar, and between two chances to stop: of several oscillators, of one.
+BLOCK, BLOCK_OF_ONE = 8, 256
 
 
 class Status(StrEnum):
@@ -110,28 +111,32 @@ def transient_periods(osc: Oscillator) -> int:
     return math.ceil(min(max(20.0 / rate, 500), 20_000)) if rate > 0.0 else 500
 
 
-def settle_lanes(
+def settle_batch(
     oscillators: Sequence[Oscillator],
     starts: NDArray[np.float64],
     settings: SettleSettings,
     *,
+    known: Known | None = None,
     chain: int = 1,
     share: int | None = None,
     cores: bool = True,
     progress: bool = False,
 ) -> Settled:
-    """Follow each oscillator from its start until it settles, in parallel over the cores.
+    """Follow a motion from each start until it settles, in parallel over the cores.
 
     Parameters
     ----------
     oscillators : sequence of Oscillator
-        All with equally many stiffness levels and harmonics.
+        One for each start, or one for each of equal runs of starts (one alone: for all); all with equally many
+        stiffness levels and harmonics.
     starts : ndarray of float, shape (n, 2)
-        X and X' of each lane.
+        X and X' of each motion.
     settings : SettleSettings
+    known : Known, optional
+        Attractors of the oscillator, if there is but one, that may capture a motion.
     chain : int
-        Lanes in a chain, a divisor of n: each but the first of its chain starts where the one before it ended. 1
-        starts every lane from its own start, n makes one carried sweep.
+        Motions in a chain, a divisor of n: each but the first of its chain starts where the one before it ended. 1
+        starts every motion from its own start, n makes one carried sweep.
     share : int, optional
         The most mesh periods of one motion, where the batch is only a part of what `settings.most_work` is for.
     cores : bool
@@ -142,22 +147,24 @@ def settle_lanes(
     Returns
     -------
     Settled
-        Arrays with one row a lane. Ctrl-C keeps the rows that are done, with a warning.
+        Arrays with one row a motion. Ctrl-C keeps the rows that are done, with a warning.
     """
-    n = len(oscillators)
-    out = room(n, settings)
+    n = len(starts)
+    out = blank(n, settings)
     most = settings.share_of_work(n) if share is None else share
-    known = Known(room(0, settings), np.empty((0, COLUMNS)))
+    limits = Limits(settings.max_period, settings.n_exponent, most)
     lanes = lanes_of(oscillators, starts, settings)
-    arguments = (lanes, chain, settings.max_period, settings.n_exponent, most, known, out)
+    arguments = (lanes, chain, limits, known or nothing_known(settings), out)
+    block = chain if chain > 1 else BLOCK_OF_ONE if len(oscillators) == 1 else BLOCK
     with stoppable(out, progress, np.minimum(lanes.n_transient + settings.n_exponent, most).sum()) as done:
         if chain == n or not cores:
-            for first in range(0, n, BLOCK):
-                last = min(first + BLOCK, n)
-                settle_rows(first, last, *arguments)
+            step = BLOCK if chain == n else block
+            for first in range(0, n, step):
+                last = min(first + step, n)
+                settle_lanes(first, last, *arguments)
                 done(last - first)
         else:
-            on_all_cores(settle_rows, arguments, n, BLOCK if chain == 1 else chain, done)
+            on_all_cores(settle_lanes, arguments, n, block, done)
     return out
 
 
@@ -177,21 +184,29 @@ def stoppable(out: Settled, progress: bool, most: float) -> Iterator[Callable[[i
 
 
 def lanes_of(oscillators: Sequence[Oscillator], starts: NDArray[np.float64], settings: SettleSettings) -> Lanes:
-    """The lanes of a batch; `starts` (n, 2) are copied."""
-    n, n_harmonics = len(oscillators), len(oscillators[0].harmonics) if oscillators else 0
+    """The lanes of a batch (see `settle_batch`); `starts` (n, 2) are copied."""
+    m, n_harmonics = len(oscillators), len(oscillators[0].harmonics) if oscillators else 0
+    own = np.repeat(np.arange(m), len(starts) // max(m, 1))
+    waits = [transient_periods(o) if settings.n_transient is None else settings.n_transient for o in oscillators]
     return Lanes(
         np.array(
             [(o.mean_force, o.error_amplitude, o.error_phase, o.damping_ratio, o.mesh_frequency) for o in oscillators]
         ),
         np.array([(*o.stiffness.edges, 1.0) for o in oscillators]),
         np.array([o.stiffness.levels for o in oscillators]),
-        np.array([o.harmonics for o in oscillators], dtype=float).reshape(n, n_harmonics, 3),
+        np.array([o.harmonics for o in oscillators], dtype=float).reshape(m, n_harmonics, 3),
+        own,
         np.array(starts, dtype=float),
-        np.array([transient_periods(o) if settings.n_transient is None else settings.n_transient for o in oscillators]),
+        np.array(waits, dtype=np.int64)[own],
     )
 
 
-def room(n: int, settings: SettleSettings) -> Settled:
+def nothing_known(settings: SettleSettings) -> Known:
+    """No attractors."""
+    return Known(blank(0, settings), np.empty((0, COLUMNS)))
+
+
+def blank(n: int, settings: SettleSettings) -> Settled:
     """Rows for `n` motions, filled with what stands for "not run"."""
     return Settled(
         np.full(n, NOT_RUN),

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from gearpair._checks import check_count
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.exponents import exponents
-from gearpair._flow.march import OK, march
+from gearpair._flow.observe import exponents
+from gearpair._flow.walk import OK, walk
 from gearpair.motion.trajectories import check_start, raise_unless_ok
 from gearpair.oscillator import Oscillator
 
@@ -38,7 +38,7 @@ def lyapunov_exponents(
     ValueError
         For an argument out of range.
     RuntimeError
-        Where the motion escapes or the march is capped.
+        Where the motion escapes or the walk is capped.
 
     Notes
     -----
@@ -53,12 +53,11 @@ def lyapunov_exponents(
     x, v = check_start(x, v)
     n_periods = check_count("n_periods", n_periods)
     n_transient = check_count("n_transient", n_transient, at_least=0)
-    series = np.empty(TERMS)
-    status, x, v = march(osc.cells, x, v, n_transient, series)
+    status, x, v = walk(osc.cells, x, v, n_transient, np.empty(TERMS))
     if status == OK:
-        status, x, v, largest, smallest, *_ = exponents(osc.cells, x, v, n_periods, 1, series)
+        status, x, v, largest, _error = exponents(osc.cells, x, v, n_periods, n_periods, 1, np.empty(4))
     raise_unless_ok(status, n_transient + n_periods)
-    return np.array([largest, smallest])
+    return np.array([largest, -2.0 * osc.damping_ratio - largest])
 
 
 def multipliers_of(monodromy: NDArray[np.float64]) -> NDArray[np.complex128]:

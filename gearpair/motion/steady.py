@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gearpair._flow.settle import Settled
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.names import Motion
-from gearpair.motion.settling import STATUSES, SettleSettings, Status, settle_lanes
+from gearpair.motion.settling import STATUSES, SettleSettings, Status, settle_batch
 from gearpair.motion.stability import multipliers_of
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
@@ -113,7 +113,7 @@ def steady_state(
     settings = SettleSettings(
         n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=max(n_samples, max_period)
     )
-    out = settle_lanes([osc], np.array([start]), settings)
+    out = settle_batch([osc], np.array([start]), settings)
     return describe(osc, out, 0)
 
 

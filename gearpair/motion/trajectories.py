@@ -10,19 +10,20 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair._checks import check_count
 from gearpair._cores import on_all_cores
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.march import (
+from gearpair._flow.records import Samples
+from gearpair._flow.walk import (
     ESCAPED,
     EVENT_UNDECIDED,
     MAX_EVENTS_PER_PERIOD,
     OK,
     TOO_MANY_EVENTS,
-    march,
-    march_starts,
+    Details,
+    walk,
+    walk_starts,
 )
-from gearpair._flow.observe import record
 from gearpair.oscillator import Oscillator
 
-PERIODS_AT_ONCE = 10_000  # of the march, between two chances to stop: some ten milliseconds
+PERIODS_AT_ONCE = 10_000  # of the walk, between two chances to stop: some ten milliseconds
 CAPPED = {
     TOO_MANY_EVENTS: f"more than {MAX_EVENTS_PER_PERIOD} contacts and separations in one mesh period: "
     "raise mesh_frequency, or lower error_amplitude, until the motion is one that a gear can make",
@@ -126,7 +127,7 @@ def stroboscopic_map(
     ValueError
         For starts that are not finite or do not broadcast, or an `n` below 0.
     RuntimeError
-        Where the march is capped; the message says what to do.
+        Where the walk is capped; the message says what to do.
 
     Notes
     -----
@@ -145,7 +146,7 @@ def stroboscopic_map(
     starts = np.stack([xs.ravel(), vs.ravel()], axis=1)
     ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
     block = max(1, PERIODS_AT_ONCE // max(n, 1))
-    on_all_cores(march_starts, (osc.cells, starts, n, ends, status), len(starts), block)
+    on_all_cores(walk_starts, (osc.cells, starts, n, ends, status), len(starts), block)
     for code, remedy in CAPPED.items():
         if np.any(status == code):
             i = int(np.argmax(status == code))
@@ -187,7 +188,7 @@ def trajectory(
     ValueError
         For an argument out of range.
     RuntimeError
-        Where the motion escapes to infinity or the march is capped.
+        Where the motion escapes to infinity or the walk is capped.
 
     Examples
     --------
@@ -201,14 +202,17 @@ def trajectory(
     n_periods = check_count("n_periods", n_periods)
     n_transient = check_count("n_transient", n_transient, at_least=0)
     samples_per_period = check_count("samples_per_period", samples_per_period)
-    status, x, v = march(osc.cells, x, v, n_transient, np.empty(TERMS))
+    series = np.empty(TERMS)
+    status, x, v = walk(osc.cells, x, v, n_transient, series)
     raise_unless_ok(status, n_transient)
     samples = np.empty((n_periods * samples_per_period + 1, 2))
     crossings = np.empty((0, 4))
-    status, done, n = record(osc.cells, x, v, n_periods, samples_per_period, samples, crossings)
-    raise_unless_ok(status, n_transient + done)
-    crossings = np.empty((n, 4))
-    record(osc.cells, x, v, n_periods, samples_per_period, samples, crossings)
+    for _ in range(2):  # once to count the crossings, once to list them
+        counts = np.zeros(2, np.int64)
+        details = Details(samples=Samples(samples_per_period, samples, crossings, counts))
+        status, *samples[-1] = walk(osc.cells, x, v, n_periods, series, None, None, details)
+        raise_unless_ok(status, n_transient + int(counts[0]) // samples_per_period)
+        crossings = np.empty((int(counts[1]), 4)) if len(crossings) == 0 else crossings
     impacts = Impacts(
         crossings[:, 0] * osc.period, crossings[:, 1].astype(int), crossings[:, 2].copy(), crossings[:, 3] == 1.0
     )
@@ -217,7 +221,7 @@ def trajectory(
 
 
 def raise_unless_ok(status: int, periods: int) -> None:
-    """Raise the RuntimeError that says why a march of `periods` mesh periods stopped, if it did."""
+    """Raise the RuntimeError that says why a walk of `periods` mesh periods stopped, if it did."""
     if status == ESCAPED:
         raise RuntimeError(
             f"the motion escapes to infinity within {periods} mesh periods: contact is parametrically unstable at "

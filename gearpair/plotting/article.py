@@ -11,12 +11,12 @@ from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
 from gearpair.article import published
-from gearpair.article.existence import Reached
+from gearpair.article.case.existence import Reached
+from gearpair.article.case.scoring import published_motions
+from gearpair.article.case.search import TOLERANCES
+from gearpair.article.case.trials import Ranked, Trial
 from gearpair.article.published import StiffnessRow
 from gearpair.article.readings import Hypothesis
-from gearpair.article.scoring import published_motions
-from gearpair.article.search import TOLERANCES
-from gearpair.article.trials import Ranked, Trial
 from gearpair.plotting.style import BACKLASH, BOUNDARY, INK, LABELS, STYLE, motion_colour, new_axes
 
 
@@ -26,7 +26,7 @@ def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax
     Parameters
     ----------
     ranked : sequence of Ranked
-        Of `gearpair.article.ranking`.
+        Of `gearpair.article.case.ranking`.
     marked : mapping of str to Hypothesis
         The ones to name.
     ax : Axes, optional
@@ -38,7 +38,8 @@ def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax
 
     Examples
     --------
-    >>> from gearpair.article import PRINTED, SWAPPED, Protocol, ranking, run_trials
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> from gearpair.article.case import Protocol, ranking, run_trials
     >>> ranked = ranking(run_trials([PRINTED, SWAPPED], [Protocol("down")], 6))
     >>> [text.get_text() for text in score_ranking(ranked, {"swapped": SWAPPED}).texts]
     ['swapped']
@@ -67,7 +68,7 @@ def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = ""
     Parameters
     ----------
     reached : Reached
-        Of `gearpair.article.reached`.
+        Of `gearpair.article.case.reached`.
     ax : Axes, optional
     title : str
 
@@ -79,7 +80,7 @@ def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = ""
     Examples
     --------
     >>> from gearpair.article import SWAPPED
-    >>> from gearpair.article import reached as motions_reached
+    >>> from gearpair.article.case import reached as motions_reached
     >>> ax = reached_motions(motions_reached([SWAPPED], "damping_ratio", 5)[0])
     >>> [label.get_text() for label in ax.get_yticklabels()]
     ['chaotic', 'period 3', 'period 1']
@@ -118,7 +119,8 @@ def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], 
 
     Examples
     --------
-    >>> from gearpair.article import PRINTED, SWAPPED, reached
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> from gearpair.article.case import reached
     >>> along = (reached([SWAPPED], p, 3, n_discarded=100) for p in ("mesh_frequency", "damping_ratio"))
     >>> ax = coverage_by_phase(*along)
     >>> [line.get_label() for line in ax.lines[:2]]
@@ -141,7 +143,7 @@ def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = No
     Parameters
     ----------
     trials : sequence of Trial
-        Of `gearpair.article.run_trials`, with integrators of fixed steps.
+        Of `gearpair.article.case.run_trials`, with integrators of fixed steps.
     axes : sequence of eight Axes, optional
         A new figure without them.
 
@@ -153,7 +155,8 @@ def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = No
 
     Examples
     --------
-    >>> from gearpair.article import SWAPPED, Protocol, run_trials
+    >>> from gearpair.article import SWAPPED
+    >>> from gearpair.article.case import Protocol, run_trials
     >>> from gearpair.methods import Integrator
     >>> trials = run_trials([SWAPPED], [Protocol("restart", 50)], 6, [Integrator(steps=20)])
     >>> [ax.get_title().split(":")[0] for ax in boundaries_by_step(trials)]

@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
 from gearpair.article.published import COMPLEX, Boundary, Range
+from gearpair.ensembles.ranges import MotionRange, motion_ranges, swept_parameter
 from gearpair.motion.names import CHAOS, Motion, motions_of
-from gearpair.motion.ranges import MotionRange, motion_ranges, swept_parameter
 from gearpair.motion.settling import Status
 from gearpair.plotting.style import (
     BACKLASH,
@@ -340,7 +340,7 @@ def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
     Parameters
     ----------
     shares : xarray.Dataset
-        Of `gearpair.motion.motion_shares`.
+        Of `gearpair.ensembles.motion_shares`.
     ax : Axes, optional
     legend : bool
         Name the colours above the axes.
@@ -353,7 +353,7 @@ def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
     Examples
     --------
     >>> import gearpair as gp
-    >>> shares = gp.motion.motion_shares(gp.Oscillator(), "damping_ratio", [0.1, 0.2], [0.0, 1.0], [0.0])
+    >>> shares = gp.ensembles.motion_shares(gp.Oscillator(), "damping_ratio", [0.1, 0.2], [0.0, 1.0], [0.0])
     >>> [band.get_label() for band in motion_shares(shares).collections]
     ['period 1']
     """

@@ -133,7 +133,7 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
     Parameters
     ----------
     result : xarray.Dataset
-        Of `gearpair.motion.continue_attractors`.
+        Of `gearpair.ensembles.continue_attractors`.
     ax : Axes, optional
     legend : bool
         Name the kinds of motion above the axes.
@@ -147,7 +147,7 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
     Examples
     --------
     >>> import gearpair as gp
-    >>> ax = attractor_shares(gp.motion.continue_attractors(gp.Oscillator(), "damping_ratio", [0.15, 0.16], n=50))
+    >>> ax = attractor_shares(gp.ensembles.continue_attractors(gp.Oscillator(), "damping_ratio", [0.15, 0.16], n=50))
     >>> [text.get_text() for text in ax.get_legend().get_texts()]
     ['period 1']
     """

@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from gearpair.ensembles.ranges import swept_parameter
 from gearpair.methods.certificates import Segment
 from gearpair.methods.precision import EXACT, Precision, numerical_chaos
-from gearpair.motion.ranges import swept_parameter
 from gearpair.plotting.style import BOUNDARY, INK, LABELS, new_axes
 
 METHOD_LOOKS = {

@@ -233,7 +233,7 @@ def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequen
     Parameters
     ----------
     states : mapping of Motion or str to SteadyState
-        By name, as `gearpair.motion.representatives` gives them.
+        By name, as `gearpair.ensembles.representatives` gives them.
     parameter : str
         Whose value is told beside the name.
 

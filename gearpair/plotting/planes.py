@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap, to_rgb
 from matplotlib.patches import Patch
 
+from gearpair.ensembles.planes import attractor_motions
 from gearpair.motion.impacts import ImpactState
-from gearpair.motion.initial_conditions import attractor_motions
 from gearpair.motion.names import IMPACT_NAMES, Motion, motions_of
 from gearpair.motion.steady import SteadyState
 from gearpair.plotting.diagrams import shade_backlash

@@ -1,7 +1,7 @@
 """Finite-element gear bodies, computed once and stored: what the mesh stiffness is checked against.
 
 The numbers stand in ``data/finite_elements.json``; the script that made them, which needs scikit-fem and gmsh, is
-``tests/finite_elements/run.py`` in the source tree. Nothing here needs either.
+``tests/teeth/finite_elements/run.py`` in the source tree. Nothing here needs either.
 """
 
 from __future__ import annotations

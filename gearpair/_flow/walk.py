@@ -1,0 +1,159 @@
+"""The walk: one oscillator's motion over whole mesh periods, cell by cell, event by event. The only loop of its kind.
+
+What is gathered on the way is handed over as accumulators, each None where it is not asked for: the compiler then
+leaves it out. ``m`` is the monodromy matrix (`tangent`), ``reach`` the range of X with the contacts (`reach`); what
+needs every segment is in a `Details`.
+
+A block of cells, and then a cell, is followed by its map where the motion certainly stays in its region. A `reach`
+asks for cells whose bounds it holds; details ask for every segment.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ._kernel import Array, Integers, allocating_kernel, inlined_kernel, kernel
+from .cells import WIDTH, Cells
+from .closed_form import TERMS
+from .event_search import INSIDE, UNDECIDED
+from .growth import Growth, grow
+from .measures import Measures, measure_segment
+from .reach import holds, widen
+from .records import Extrema, Samples, Segments, list_extrema, list_segment, sample
+from .segment import Segment, first_region, follow_row, next_segment, region_after
+from .tangent import apply_map, apply_segment
+
+# Status of a walk.
+OK, ESCAPED, TOO_MANY_EVENTS, EVENT_UNDECIDED = 0, 1, 2, 3
+
+MAX_EVENTS_PER_PERIOD = 10_000
+
+
+class Details(NamedTuple):
+    """What is gathered segment by segment."""
+
+    samples: Samples | None = None
+    segments: Segments | None = None
+    extrema: Extrema | None = None
+    measures: Measures | None = None
+    growth: Growth | None = None
+
+
+class Seen(NamedTuple):
+    """All that is gathered."""
+
+    m: Array | None
+    reach: Array | None
+    details: Details | None
+
+
+class Place(NamedTuple):
+    """Where the walk is, and how many events this mesh period has had."""
+
+    x: float
+    v: float
+    region: int
+    events: int
+
+
+@inlined_kernel
+def by_cells(seen_reach: Array | None, details: Details | None, n_cells: int) -> bool:
+    """Whether the cells of a block that was not followed as a whole may be followed one by one."""
+    return details is None and (seen_reach is not None or n_cells > 1)
+
+
+@inlined_kernel
+def by_blocks(seen_reach: Array | None, details: Details | None) -> bool:
+    """Whether a block may be followed as a whole."""
+    return details is None and seen_reach is None
+
+
+@inlined_kernel
+def see(details: Details | None, cells: Cells, segment: Segment) -> None:
+    """Gather what a segment shows."""
+    if details is None:
+        return
+    sample(details.samples, cells, segment)
+    list_segment(details.segments, cells, segment)
+    list_extrema(details.extrema, cells, segment)
+    measure_segment(details.measures, cells, segment)
+    grow(details.growth, cells, segment)
+
+
+@kernel
+def walk(
+    cells: Cells,
+    x: float,
+    v: float,
+    n_periods: int,
+    series: Array,
+    m: Array | None = None,
+    reach: Array | None = None,
+    details: Details | None = None,
+) -> tuple[int, float, float]:
+    """The state after `n_periods` mesh periods from (x, v) at the start of one: (status, x, v).
+
+    Stops early, with the state reached, when the status is not OK. `series` (TERMS,) is scratch; `m` (2, 2) is
+    multiplied by the monodromy matrix of the span, `reach` (4,) widened, `details` gathered.
+    """
+    seen = Seen(m, reach, details)
+    region = first_region(cells, x, v)
+    for period in range(n_periods):
+        events = 0
+        for b in range(cells.block_width.size):
+            if by_blocks(reach, details):
+                row = cells.block_maps[b, region + 1]
+                certain, x1, v1, _low, _high = follow_row(row, cells.block_width[b], x, v, region)
+                if certain:
+                    apply_map(m, row)
+                    x, v = x1, v1
+                    continue
+            status, place = walk_block(cells, period, b, Place(x, v, region, events), series, seen)
+            x, v, region, events = place
+            if status != OK:
+                return status, x, v
+        if not abs(x) + abs(v) <= cells.escape_radius:
+            return ESCAPED, x, v
+    return OK, x, v
+
+
+@inlined_kernel
+def walk_block(cells: Cells, period: int, b: int, place: Place, series: Array, seen: Seen) -> tuple[int, Place]:
+    """A block that is not followed as a whole: its cells one by one, by their maps or event by event."""
+    x, v, region, events = place
+    first, last = cells.blocks[b], cells.blocks[b + 1]
+    for j in range(first, last):
+        if by_cells(seen.reach, seen.details, last - first):
+            row = cells.maps[j, region + 1]
+            certain, x1, v1, low, high = follow_row(row, cells.clock[j, WIDTH], x, v, region)
+            if certain and holds(seen.reach, low, high):
+                apply_map(seen.m, row)
+                x, v = x1, v1
+                continue
+        t = 0.0
+        while True:
+            outcome, duration, x, v, fourth = next_segment(cells, j, t, x, v, region, series)
+            if outcome == UNDECIDED:
+                return EVENT_UNDECIDED, Place(x, v, region, events)
+            segment = Segment(period, j, t, duration, region, outcome != INSIDE, x, v, fourth, series)
+            apply_segment(seen.m, cells, segment)
+            widen(seen.reach, cells, segment)
+            see(seen.details, cells, segment)
+            if outcome == INSIDE:
+                break
+            t += duration
+            region = region_after(region, x)
+            events += 1
+            if events > MAX_EVENTS_PER_PERIOD:
+                return TOO_MANY_EVENTS, Place(x, v, region, events)
+    return OK, Place(x, v, region, events)
+
+
+@allocating_kernel
+def walk_starts(
+    first: int, last: int, cells: Cells, starts: Array, n_periods: int, ends: Array, status: Integers
+) -> None:
+    """`walk` from rows `first` to `last` of `starts` (n, 2), filling the same of `ends` (n, 2) and `status` (n,)."""
+    series = np.empty(TERMS)
+    for i in range(first, last):
+        status[i], ends[i, 0], ends[i, 1] = walk(cells, starts[i, 0], starts[i, 1], n_periods, series)

@@ -1,0 +1,82 @@
+"""The case about the article's numbers: readings drawn and scored, what they reach, and the verdict on every item.
+
+A *protocol* is one way to draw a diagram; a *trial* is a reading drawn by a protocol.
+"""
+
+from gearpair.article.case.boundaries import (
+    bifurcations_of,
+    boundary_table,
+    distance_from_bifurcations,
+    drawn_boundary,
+    named_bifurcation,
+    nearest,
+)
+from gearpair.article.case.existence import STARTS, Reached, reached, shared_boundaries
+from gearpair.article.case.items import Evidence, judge_items
+from gearpair.article.case.scoring import Match, Score, axis, published_kind, published_motions, random_tables, score
+from gearpair.article.case.search import (
+    TOLERANCES,
+    asked_phase_table,
+    asked_phases,
+    boundaries_met,
+    most_met_by_chance,
+    search_table,
+)
+from gearpair.article.case.trials import (
+    Protocol,
+    Ranked,
+    Trial,
+    all_hypotheses,
+    all_protocols,
+    periods,
+    ranking,
+    run_trials,
+    score_by_choice,
+    score_by_start,
+)
+from gearpair.article.case.two_rotors import two_rotor_difference
+from gearpair.article.case.verdicts import Verdict, count_verdicts, counter_evidence, judge, verdict_table
+
+__all__ = [
+    "Evidence",
+    "Match",
+    "Protocol",
+    "Ranked",
+    "Reached",
+    "STARTS",
+    "Score",
+    "TOLERANCES",
+    "Trial",
+    "Verdict",
+    "all_hypotheses",
+    "all_protocols",
+    "asked_phase_table",
+    "asked_phases",
+    "axis",
+    "bifurcations_of",
+    "boundaries_met",
+    "boundary_table",
+    "count_verdicts",
+    "counter_evidence",
+    "distance_from_bifurcations",
+    "drawn_boundary",
+    "judge",
+    "judge_items",
+    "most_met_by_chance",
+    "named_bifurcation",
+    "nearest",
+    "periods",
+    "published_kind",
+    "published_motions",
+    "random_tables",
+    "ranking",
+    "reached",
+    "run_trials",
+    "score",
+    "score_by_choice",
+    "score_by_start",
+    "search_table",
+    "shared_boundaries",
+    "two_rotor_difference",
+    "verdict_table",
+]

@@ -1,0 +1,136 @@
+"""The motions that a reading has at all, reached from any start, whatever the protocol of a diagram."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearpair.article import published
+from gearpair.article.case.scoring import axis, published_kind, published_motions
+from gearpair.article.case.trials import MAX_PERIOD, by_levels
+from gearpair.article.readings import Hypothesis
+from gearpair.motion.names import Motion
+from gearpair.motion.settling import SettleSettings, settle_batch
+
+STARTS = tuple((x, v) for x in (-1.0, 0.0, 1.0, 2.0) for v in (-0.6, 0.0, 0.6))
+
+
+@dataclass(frozen=True)
+class Reached:
+    """The motions that a hypothesis has at each value of a parameter, whatever the protocol: reached from any start.
+
+    Attributes
+    ----------
+    hypothesis : Hypothesis
+    parameter : str
+    values : ndarray of float, shape (n,)
+    motions : tuple of frozenset of Motion
+        One set per value, in the article's words as `published_kind` gives them.
+    """
+
+    hypothesis: Hypothesis
+    parameter: str
+    values: NDArray[np.float64]
+    motions: tuple[frozenset[Motion], ...]
+
+    def has(self, motion: Motion) -> NDArray[np.bool_]:
+        """Where a motion was reached, shape (n,)."""
+        return np.array([motion in there for there in self.motions])
+
+    @property
+    def published_present(self) -> NDArray[np.bool_]:
+        """Where the published motion was reached, shape (n,)."""
+        ends = [r.upper for r in published.ranges(self.parameter)[:-1]]
+        motions = published_motions(self.parameter)
+        expected = [motions[k] for k in np.searchsorted(ends, self.values, side="right")]
+        return np.array([want in there for want, there in zip(expected, self.motions, strict=True)])
+
+    @property
+    def coverage(self) -> float:
+        """Fraction of the axis on which the published motion was reached from some start."""
+        return float(np.mean(self.published_present))
+
+    def within(self, item: str) -> float:
+        """`coverage` inside one published range, by its item."""
+        (stated,) = (r for r in published.ranges(self.parameter) if r.item == item)
+        inside = (self.values > stated.lower) & (self.values < stated.upper)
+        return float(np.mean(self.published_present[inside]))
+
+
+def shared_boundaries(reached: Reached) -> list[str]:
+    """The items of the published boundaries at which the motions of both sides exist.
+
+    Parameters
+    ----------
+    reached : Reached
+        The value nearest to a boundary tells.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED
+    >>> from gearpair.motion import periodic
+    >>> one, both = frozenset({periodic(3)}), frozenset({periodic(1), periodic(3)})
+    >>> shared_boundaries(Reached(PRINTED, "damping_ratio", np.array([0.003, 0.0165]), (one, both)))
+    ['D4']
+    """
+    pairs = zip(published.boundaries(reached.parameter), pairwise(published_motions(reached.parameter)), strict=True)
+    nearest = [(b.item, kinds, int(np.argmin(np.abs(reached.values - b.value)))) for b, kinds in pairs]
+    return [item for item, kinds, i in nearest if set(kinds) <= reached.motions[i]]
+
+
+def reached(
+    hypotheses: Sequence[Hypothesis],
+    parameter: str,
+    n_values: int = 40,
+    *,
+    starts: Sequence[tuple[float, float]] = STARTS,
+    n_discarded: int | None = None,
+) -> list[Reached]:
+    """The motions that each hypothesis has at the middles of `n_values` equal parts of the published axis.
+
+    Parameters
+    ----------
+    hypotheses : sequence of Hypothesis
+    parameter : {"mesh_frequency", "damping_ratio"}
+    n_values : int
+    starts : sequence of (x, v)
+    n_discarded : int or None
+        As in `Protocol`.
+
+    Returns
+    -------
+    list of Reached
+
+    Notes
+    -----
+    This asks less than a `Trial`: which of several coexisting motions a diagram shows depends on its protocol,
+    which ones exist does not.
+
+    Examples
+    --------
+    >>> from gearpair.article import SWAPPED
+    >>> reached([SWAPPED], "damping_ratio", 5)[0].within("D5")
+    1.0
+    """
+    edges = axis(parameter, n_values + 1)
+    values = 0.5 * (edges[1:] + edges[:-1])
+    settings = SettleSettings(n_transient=n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD)
+    found = np.zeros((len(hypotheses), n_values, len(starts)), np.int64)
+    for places in by_levels(hypotheses):
+        oscillators = [osc for i in places for osc in hypotheses[i].along(parameter, values)]
+        out = settle_batch(oscillators, np.tile(starts, (len(oscillators), 1)), settings)
+        found[places] = out.period.reshape(len(places), n_values, len(starts))
+    return [
+        Reached(
+            h, parameter, values, tuple(frozenset(published_kind(int(m), parameter) for m in row) for row in found[i])
+        )
+        for i, h in enumerate(hypotheses)
+    ]

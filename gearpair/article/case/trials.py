@@ -1,0 +1,289 @@
+"""All readings, the ways to draw the article's diagrams, and what scores: a `Trial` is a reading and a `Protocol`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, fields
+from itertools import product
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearpair._checks import check_choice, check_count
+from gearpair.article.case.scoring import Score, axis, score
+from gearpair.article.readings import FORCINGS, Hypothesis
+from gearpair.methods.runge_kutta import Integrator, section_period
+from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.table import Table
+
+MAX_PERIOD = 12  # longer ones count as no period: nobody reads them off a diagram
+
+
+def all_hypotheses() -> tuple[Hypothesis, ...]:
+    """Every combination of the readings of a rectangle, the phase in quarter turns, and one harmonic in its place.
+
+    The damping at the wave's mean is left out where that mean is one: it is then the article's own. One harmonic is
+    combined with durations, order and phase only.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED
+    >>> len(all_hypotheses()), all_hypotheses()[0] == PRINTED
+    (176, True)
+    """
+    orders = list(product(("eps - 1", "2 - eps"), ("stiff", "soft"), FORCINGS))
+    scalings = [
+        (force, mean, damping)
+        for force, mean, damping in product(
+            ("Omega^2", "constant"), ("as printed", "one"), ("2 zeta", "zeta", "2 zeta sqrt(mean)")
+        )
+        if (mean, damping) != ("one", "2 zeta sqrt(mean)")
+    ]
+    rectangles = [
+        Hypothesis(stiff_for=s, first=i, phase=p, force=f, mean=m, damping=d)  # type: ignore[arg-type]
+        for (s, i, p), (f, m, d) in product(orders, scalings)
+    ]
+    harmonics = [
+        Hypothesis(stiff_for=s, first=i, phase=p, shape="first harmonic")  # type: ignore[arg-type]
+        for s, i, p in orders
+    ]
+    return (*rectangles, *harmonics)
+
+
+def by_levels(hypotheses: Sequence[Hypothesis]) -> list[list[int]]:
+    """The places of hypotheses whose waves have equally many levels, which can be followed side by side."""
+    places: dict[int, list[int]] = {}
+    for i, hypothesis in enumerate(hypotheses):
+        places.setdefault(len(hypothesis.wave.levels), []).append(i)
+    return list(places.values())
+
+
+@dataclass(frozen=True)
+class Protocol:
+    """A way to draw a diagram.
+
+    Parameters
+    ----------
+    seeding : {"up", "down", "restart"}
+        State carried with the parameter rising or falling, or every value started from (x, v).
+    n_discarded : int or None
+        Mesh periods discarded as transient at each value; None waits for each motion to settle.
+    x, v : float
+        The start.
+    """
+
+    seeding: Literal["up", "down", "restart"]
+    n_discarded: int | None = 200
+    x: float = 0.0
+    v: float = 0.0
+
+    def __post_init__(self) -> None:
+        check_choice("seeding", self.seeding, ("up", "down", "restart"))
+        if self.n_discarded is not None:
+            check_count("n_discarded", self.n_discarded)
+
+    def __str__(self) -> str:
+        wait = "settled" if self.n_discarded is None else f"{self.n_discarded} discarded"
+        return f"{self.seeding} from ({self.x:g}, {self.v:g}), {wait}"
+
+
+def all_protocols(
+    starts: Iterable[tuple[float, float]] = ((0.0, 0.0),), n_discarded: Iterable[int | None] = (200,)
+) -> tuple[Protocol, ...]:
+    """Up, down and restarted, from each start, with each transient.
+
+    Examples
+    --------
+    >>> print(*all_protocols(), sep="; ")
+    up from (0, 0), 200 discarded; down from (0, 0), 200 discarded; restart from (0, 0), 200 discarded
+    """
+    return tuple(
+        Protocol(seeding, n, x, v) for n in n_discarded for x, v in starts for seeding in ("up", "down", "restart")
+    )
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One hypothesis drawn by one protocol, and its scores on the two published axes.
+
+    `integrator` is None where the motions were followed by the exact flow.
+    """
+
+    hypothesis: Hypothesis
+    protocol: Protocol
+    integrator: Integrator | None
+    frequency: Score
+    damping: Score
+
+    @property
+    def total(self) -> float:
+        """The mean of the two scores: one hypothesis has to explain both tables."""
+        return 0.5 * (self.frequency.total + self.damping.total)
+
+
+def periods(
+    hypotheses: Sequence[Hypothesis],
+    protocol: Protocol,
+    parameter: str,
+    n_values: int = 101,
+    integrator: Integrator | None = None,
+) -> NDArray[np.int64]:
+    """The period at each value of a parameter (rising), 0 where none up to 12; shape (hypotheses, n_values).
+
+    With an integrator the period is read off the section as a reader would (`gearpair.methods.section_period`), and
+    the protocol needs a number of mesh periods to discard.
+
+    Examples
+    --------
+    >>> from gearpair.article import SWAPPED
+    >>> periods([SWAPPED], Protocol("down", None), "damping_ratio", 6)[0, 1:].tolist()
+    [1, 1, 1, 1, 1]
+    """
+    values = axis(parameter, n_values)
+    order = slice(None, None, -1) if protocol.seeding == "down" else slice(None)
+    chain = 1 if protocol.seeding == "restart" else n_values
+    found = np.zeros((len(hypotheses), n_values), np.int64)
+    for places in by_levels(hypotheses):
+        oscillators = [osc for i in places for osc in hypotheses[i].along(parameter, values[order])]
+        if integrator is None:
+            starts = np.broadcast_to([protocol.x, protocol.v], (len(oscillators), 2))
+            settings = SettleSettings(
+                n_transient=protocol.n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD
+            )
+            drawn = settle_batch(oscillators, starts, settings, chain=chain).period
+        else:
+            n_discarded = check_count("n_discarded", protocol.n_discarded)
+            sections = integrator.sections(
+                oscillators, protocol.x, protocol.v, n_discarded, 2 * MAX_PERIOD, chain=chain
+            )
+            drawn = np.array([section_period(section) for section in sections])
+        found[places] = drawn.reshape(len(places), n_values)[:, order]
+    return found
+
+
+def run_trials(
+    hypotheses: Sequence[Hypothesis],
+    protocols: Sequence[Protocol],
+    n_values: int = 101,
+    integrators: Sequence[Integrator | None] = (None,),
+) -> list[Trial]:
+    """Every hypothesis by every protocol and every integrator, the best first.
+
+    Parameters
+    ----------
+    hypotheses : sequence of Hypothesis
+    protocols : sequence of Protocol
+    n_values : int
+        Values on each axis.
+    integrators : sequence of Integrator or None
+        None is the exact flow.
+
+    Returns
+    -------
+    list of Trial
+
+    Raises
+    ------
+    ValueError
+        For an integrator with a protocol that waits until motions settle.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> best = run_trials([PRINTED, SWAPPED], [Protocol("down", None)], n_values=26)[0]
+    >>> best.hypothesis == SWAPPED
+    True
+    """
+    done = []
+    for protocol, integrator in product(protocols, integrators):
+        parameters = ("mesh_frequency", "damping_ratio")
+        found = {p: periods(hypotheses, protocol, p, n_values, integrator) for p in parameters}
+        for i, hypothesis in enumerate(hypotheses):
+            scores = [score(p, axis(p, n_values), motions[i]) for p, motions in found.items()]
+            done.append(Trial(hypothesis, protocol, integrator, *scores))
+    return sorted(done, key=lambda trial: -trial.total)
+
+
+@dataclass(frozen=True)
+class Ranked:
+    """One hypothesis among others: the mean of its trials' totals, and the best trial."""
+
+    hypothesis: Hypothesis
+    mean: float
+    best: Trial
+
+
+def ranking(done: Iterable[Trial]) -> list[Ranked]:
+    """Hypotheses by the mean over their trials, the highest first: one lucky start shall not decide.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> ranked = ranking(run_trials([PRINTED, SWAPPED], [Protocol("down", None)], 11))
+    >>> [entry.hypothesis == SWAPPED for entry in ranked]
+    [True, False]
+    """
+    grouped: dict[Hypothesis, list[Trial]] = {}
+    for trial in done:
+        grouped.setdefault(trial.hypothesis, []).append(trial)
+    ranked = [
+        Ranked(h, float(np.mean([trial.total for trial in each])), max(each, key=lambda trial: trial.total))
+        for h, each in grouped.items()
+    ]
+    return sorted(ranked, key=lambda entry: -entry.mean)
+
+
+def score_by_choice(ranked: Sequence[Ranked]) -> Table:
+    """For each single choice the best place and the mean score of the hypotheses that make it.
+
+    Parameters
+    ----------
+    ranked : sequence of Ranked
+        Of `ranking`, over `all_hypotheses`.
+
+    Returns
+    -------
+    Table
+        One row for each value of each field of `Hypothesis`.
+
+    Examples
+    --------
+    >>> from gearpair.article import PRINTED, SWAPPED
+    >>> score_by_choice(ranking(run_trials([PRINTED, SWAPPED], [Protocol("down", None)], 11))).rows[0][:3]
+    ('stiff for', '2 - eps', '1')
+    """
+    rows = []
+    for field in fields(Hypothesis):
+        for value in dict.fromkeys(getattr(entry.hypothesis, field.name) for entry in ranked):
+            places = [i for i, entry in enumerate(ranked) if getattr(entry.hypothesis, field.name) == value]
+            mean = float(np.mean([ranked[i].mean for i in places]))
+            rows.append([field.name.replace("_", " "), FORCINGS.get(value, value), places[0] + 1, f"{mean:.2f}"])
+    return Table(["choice", "value", "best place", "mean score"], rows)
+
+
+def score_by_start(done: Iterable[Trial]) -> Table:
+    """For each start the mean and the best score over all that was drawn from it, the highest mean first.
+
+    Parameters
+    ----------
+    done : iterable of Trial
+        Of `run_trials`.
+
+    Returns
+    -------
+    Table
+
+    Examples
+    --------
+    >>> from gearpair.article import SWAPPED
+    >>> starts = all_protocols(starts=[(0.0, 0.0), (1.0, 0.0)], n_discarded=[None])
+    >>> sorted(row[0] for row in score_by_start(run_trials([SWAPPED], starts, 6)).rows)
+    ['(0, 0)', '(1, 0)']
+    """
+    grouped: dict[tuple[float, float], list[float]] = {}
+    for trial in done:
+        grouped.setdefault((trial.protocol.x, trial.protocol.v), []).append(trial.total)
+    ordered = sorted(grouped.items(), key=lambda entry: -float(np.mean(entry[1])))
+    rows = [[f"({x:g}, {v:g})", f"{np.mean(totals):.2f}", f"{max(totals):.2f}"] for (x, v), totals in ordered]
+    return Table(["start", "mean score", "best score"], rows)

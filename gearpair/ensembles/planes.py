@@ -1,0 +1,248 @@
+"""Which motion each start of a plane leads to: basins of attraction, and what the attractors are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair._flow.settle import Known
+from gearpair.ensembles.capture import Found, found_in, known_attractors, number_attractors, seeds
+from gearpair.ensembles.datasets import (
+    axis_attributes,
+    settled_columns,
+    variables_of,
+    way_columns,
+)
+from gearpair.ensembles.stores import add_column, add_table, fill, opened_dataset, read_blocks
+from gearpair.motion.impacts import ImpactState
+from gearpair.motion.names import Motion, motions_from
+from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.steady import SteadyState, steady_state
+from gearpair.motion.trajectories import check_starts
+from gearpair.oscillator import Oscillator
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from distributed import Client
+
+ATTRACTOR_COLUMNS = ("status", "period", "impact_state", "x_min", "x_max", "exponent")
+
+
+def basins(
+    osc: Oscillator,
+    x: ArrayLike,
+    v: ArrayLike,
+    *,
+    n_transient: int | None = None,
+    max_period: int = 64,
+    n_exponent: int = 500,
+    most_work: int | None = None,
+    store: str | Path | None = None,
+    client: Client | None = None,
+    progress: bool = False,
+) -> xr.Dataset:
+    """The attractor that each start of a grid reaches, and what happens on the way.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    x : array_like of float, shape (n_x,)
+        Initial X.
+    v : array_like of float, shape (n_v,)
+        Initial X'.
+    n_transient, max_period, n_exponent
+        As in `steady_state`.
+    most_work : int, optional
+        Mesh periods that all starts together may take at most; a start that would need more than its share ends as
+        ``"exhausted"``.
+    store : path, optional
+        Write the result to a Zarr store, block by block, and return it from there: memory then holds one block. The
+        same call goes on with a store that was not finished. Codes stand for words, which
+        `gearpair.ensembles.decoded` puts back.
+    client : distributed.Client, optional
+        Compute the blocks on its workers, which must see the path of the store.
+    progress : bool
+        Show a progress bar on stderr, with the most mesh periods that all may take.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``(v, x)``: ``attractor`` (its number, -1 where the motion did not stay bounded or was not judged),
+        ``status``, ``period``, ``impact_state``, ``x_min``, ``x_max``, ``exponent``, ``exponent_error``; of the way
+        there ``worst_impact_state`` and ``largest_displacement`` (the attractor included), ``settling_time`` and
+        ``impacts_before`` (nan unless periodic). Over ``attractor_number``: ``attractor_status``,
+        ``attractor_period``, ``attractor_impact_state``, ``attractor_x_min``, ``attractor_x_max``,
+        ``attractor_exponent``, ``attractor_x``, ``attractor_v`` (its section point of smallest X; nan unless periodic)
+        and ``attractor_share`` of the starts. Periodic attractors come first, by period and X; then chaotic sets, told
+        apart by their extremes and exponents; then all unsettled motions as one.
+
+    Raises
+    ------
+    ValueError
+        For starts that are not finite or not one-dimensional, or a store that was made with other arguments.
+    ImportError
+        For a store without zarr, which the extra ``cluster`` brings.
+
+    Notes
+    -----
+    Attractors are looked for from some of the starts first. Around each stable cycle a neighbourhood is certified that
+    no motion leaves, and every start is followed until one of them captures it: that is its settling time, rounded
+    up to a mesh period. What is not captured settles as in `steady_state`: a chaotic transient that outlasts
+    `n_transient` is called aperiodic, which with weak damping happens to some starts in a hundred.
+
+    Examples
+    --------
+    >>> result = basins(Oscillator(mesh_frequency=0.7, damping_ratio=0.1), [0.0, 1.0, 2.0], [0.0])
+    >>> result.attractor_period.values.tolist()
+    [1]
+    """
+    xs, _ = check_starts(x, 0.0)
+    _, vs = check_starts(0.0, v)
+    for name, values in (("x", xs), ("v", vs)):
+        if values.ndim != 1 or values.size == 0:
+            raise ValueError(f"{name} must be a non-empty sequence of numbers, got shape {values.shape}")
+    settings = SettleSettings(
+        n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1, most_work=most_work
+    )
+    plane = Plane.of(osc, xs, vs, settings)
+    if store is not None or client is not None:
+        return _stored(plane, store, client, progress)
+    columns = plane.columns(0, len(vs), progress=progress)
+    found, places = found_in(columns)
+    (numbers,), table = number_attractors([found])
+    variables = variables_of(columns | {"attractor": numbers[places]}, ("v", "x"), (len(vs), len(xs)))
+    return plane_dataset(plane, variables, attractor_variables(table, len(places)))
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A plane of starts to be settled in any parts (a `gearpair.ensembles.stores.Job`)."""
+
+    osc: Oscillator
+    axes: dict[str, NDArray[np.float64]]
+    settings: SettleSettings
+    known: Known
+
+    @classmethod
+    def of(cls, osc: Oscillator, xs: NDArray[np.float64], vs: NDArray[np.float64], settings: SettleSettings) -> Plane:
+        """With the attractors that some of the starts reach, which are the same however the plane is cut."""
+        n = len(xs) * len(vs)
+        rows, columns = np.divmod(seeds(n), len(xs))
+        seed_starts = np.stack([xs[columns], vs[rows]], axis=1)
+        return cls(osc, {"v": vs, "x": xs}, settings, known_attractors(osc, seed_starts, settings))
+
+    @property
+    def identity(self) -> dict[str, str]:
+        """What the numbers depend on besides the axes."""
+        return {"kind": "basins", "oscillator": repr(self.osc), "settings": repr(self.settings)}
+
+    def columns(self, first: int, last: int, *, cores: bool = True, progress: bool = False) -> dict[str, NDArray[Any]]:
+        """The results for rows `first` to `last` of X', as codes."""
+        xs, vs = self.axes["x"], self.axes["v"]
+        starts = np.stack([np.tile(xs, last - first), np.repeat(vs[first:last], len(xs))], axis=1)
+        share = self.settings.share_of_work(len(xs) * len(vs))
+        out = settle_batch(
+            [self.osc], starts, self.settings, known=self.known, share=share, cores=cores, progress=progress
+        )
+        return settled_columns(out) | way_columns(out)
+
+
+def _stored(plane: Plane, store: str | Path | None, client: Client | None, progress: bool) -> xr.Dataset:
+    """`basins` by way of a store: the blocks, then one numbering for the attractors of all."""
+    if store is None:
+        raise ValueError("a client needs a store to write to, on a path that all its workers see: give store, too")
+    group = fill(plane, store, client=client, progress=progress)
+    if not group.attrs.get("complete"):
+        names = ["status", "period", "section_x", "section_v", "x_min", "x_max", "exponent", "impact_state"]
+        offsets, n_x = {}, len(plane.axes["x"])
+        found: list[Found] = []
+        for first, _last, columns in read_blocks(plane, group, names):
+            offsets[first] = len(found)
+            found.append(found_in(columns, first * n_x)[0])
+        numbers, table = number_attractors(found)
+        labels = add_column(plane, group, "attractor", np.int64)
+        for first, last, columns in read_blocks(plane, group, names):
+            places = found_in(columns, first * n_x)[1]
+            labels[first:last] = numbers[offsets[first]][places].reshape(last - first, n_x)
+        add_table(group, attractor_variables(table, len(plane.axes["v"]) * n_x, coded=True))
+    return opened_dataset(store)
+
+
+def plane_dataset(plane: Plane, variables: Mapping[str, Any], table: Mapping[str, Any]) -> xr.Dataset:
+    """Variables over a plane of starts, and over its attractors."""
+    import xarray as xr  # here, so that importing gearpair stays quick
+
+    coordinates: dict[str, Any] = {name: (name, values, axis_attributes(name)) for name, values in plane.axes.items()}
+    coordinates["attractor_number"] = np.arange(len(table["attractor_share"][1]))
+    return xr.Dataset({**variables, **table}, coordinates, {"oscillator": repr(plane.osc)})
+
+
+def attractor_variables(
+    table: Mapping[str, NDArray[Any]], n: int, *, errors: bool = False, coded: bool = False
+) -> dict[str, Any]:
+    """What each attractor is and its share of `n` starts, with the standard errors that random starts leave."""
+    share = table["counts"] / n
+    columns = {f"attractor_{name}": table[name] for name in ATTRACTOR_COLUMNS}
+    columns |= {"attractor_x": table["section_x"], "attractor_v": table["section_v"], "attractor_share": share}
+    if errors:
+        columns["attractor_share_error"] = np.sqrt(share * (1.0 - share) / n)
+    return variables_of(columns, ("attractor_number",), share.shape, coded=coded)
+
+
+def attractor_motions(result: xr.Dataset, least_share: float = 0.0) -> list[Motion]:
+    """What each attractor of `gearpair.basins` is: its motion and, where periodic, its impact state.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        Of `gearpair.basins`.
+    least_share : float
+        Attractors that fewer of the starts reach are left out.
+
+    Returns
+    -------
+    list of Motion
+
+    Examples
+    --------
+    >>> print(*attractor_motions(basins(Oscillator(), [0.0, 1.0], [0.0])))
+    period 2, single-sided
+    """
+    kinds = motions_from(result.attractor_status.values, result.attractor_period.values)
+    columns = zip(kinds, result.attractor_impact_state.values, result.attractor_share.values, strict=True)
+    return [
+        Motion(kind.status, kind.period, ImpactState(str(state)) if kind.period else None)
+        for kind, state, share in columns
+        if share >= least_share
+    ]
+
+
+def attractor_states(osc: Oscillator, result: xr.Dataset, least_share: float = 0.0) -> list[SteadyState]:
+    """The periodic attractors of `gearpair.basins`, each described in full.
+
+    Parameters
+    ----------
+    osc : Oscillator
+        Whose basins they are.
+    result : xarray.Dataset
+        Of `gearpair.basins`.
+    least_share : float
+        Attractors that fewer of the starts reach are left out.
+
+    Returns
+    -------
+    list of SteadyState
+
+    Examples
+    --------
+    >>> [state.period for state in attractor_states(Oscillator(), basins(Oscillator(), [-2.0, 1.0], [0.0]))]
+    [1, 2]
+    """
+    columns = (result[f"attractor_{name}"].values.tolist() for name in ("x", "v", "share"))
+    rows = zip(*columns, strict=True)
+    return [steady_state(osc, x, v) for x, v, share in rows if np.isfinite(x) and share >= least_share]

@@ -1,0 +1,131 @@
+"""The shares of many starts that each motion takes: of starts drawn at random, and of a grid along a parameter."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair._checks import check_count
+from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, seeds
+from gearpair.ensembles.datasets import attributes, dataset, oscillators_along, settled_columns
+from gearpair.ensembles.planes import attractor_variables, basins
+from gearpair.motion.names import motions_of
+from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.oscillator import Oscillator
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def basin_stability(
+    osc: Oscillator,
+    n: int = 1000,
+    *,
+    x_reach: tuple[float, float] = (-4.0, 4.0),
+    v_reach: tuple[float, float] = (-3.0, 3.0),
+    seed: int = 0,
+    n_transient: int | None = None,
+    max_period: int = 64,
+    n_exponent: int = 500,
+) -> xr.Dataset:
+    """The share of random starts that each attractor takes, with its standard error.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    n : int
+        Starts, drawn evenly from the rectangle.
+    x_reach, v_reach : (float, float)
+        Smallest and largest X and X' of the rectangle.
+    seed : int
+        Of the random numbers: the same seed draws the same starts.
+    n_transient, max_period, n_exponent
+        As in `steady_state`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``attractor_number`` as of `basins`, with ``attractor_share_error`` besides.
+
+    Raises
+    ------
+    ValueError
+        For a count below 1 or a rectangle without area.
+
+    Notes
+    -----
+    Menck, Heitzig, Marwan and Kurths (2013). Each start is a Bernoulli trial, so a share S has the standard error
+    ``sqrt(S (1 - S) / n)``, whatever the shape of the basin.
+
+    Examples
+    --------
+    >>> stability = basin_stability(Oscillator(), 400)
+    >>> bool(abs(stability.attractor_share[0] - 0.5) < 4 * stability.attractor_share_error[0])
+    True
+    """
+    n = check_count("n", n)
+    starts = random_starts(n, x_reach, v_reach, seed)
+    settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
+    out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[seeds(n)], settings))
+    found, _ = found_in(settled_columns(out))
+    _, table = number_attractors([found])
+    import xarray as xr  # here, so that importing gearpair stays quick
+
+    numbers = {"attractor_number": np.arange(len(table["counts"]))}
+    return xr.Dataset(attractor_variables(table, n, errors=True), numbers, {"n": n, "oscillator": repr(osc)})
+
+
+def random_starts(n: int, x_reach: tuple[float, float], v_reach: tuple[float, float], seed: int) -> NDArray[np.float64]:
+    """Starts (n, 2) drawn evenly from a rectangle, or a ValueError that says what is wrong with it."""
+    for name, reach in (("x_reach", x_reach), ("v_reach", v_reach)):
+        if not -np.inf < reach[0] < reach[1] < np.inf:
+            raise ValueError(f"{name} must be two finite numbers in rising order, got {reach}")
+    return np.random.default_rng(seed).uniform((x_reach[0], v_reach[0]), (x_reach[1], v_reach[1]), (n, 2))
+
+
+def motion_shares(
+    osc: Oscillator,
+    parameter: str,
+    values: ArrayLike,
+    x: ArrayLike,
+    v: ArrayLike,
+    **settings: Any,
+) -> xr.Dataset:
+    """Along one parameter, the share of a grid of starts that reaches each kind of motion.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    parameter : str
+        One of ``osc.parameters``.
+    values : array_like of float, shape (n,)
+    x, v : array_like of float
+        The grid of starts, as for `gearpair.basins`.
+    **settings
+        As for `gearpair.basins`.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``share`` over ``(parameter, motion)``; each motion by its name, with its ``status`` and ``period``: periodic
+        ones first, by period.
+
+    Examples
+    --------
+    >>> shares = motion_shares(Oscillator(), "damping_ratio", [0.1, 0.2], [0.0, 1.0], [0.0])
+    >>> shares.share.values.tolist()
+    [[1.0], [1.0]]
+    """
+    oscillators, checked = oscillators_along(osc, parameter, values)
+    planes = [motions_of(basins(each, x, v, **settings)) for each in oscillators]
+    motions = sorted({motion for plane in planes for motion in plane.ravel()})
+    share = [[float(np.mean(plane == motion)) for motion in motions] for plane in planes]
+    columns = {
+        "share": ((parameter, "motion"), share, {"long_name": "share of the starts", "units": "1"}),
+        "status": ("motion", [str(motion.status) for motion in motions], attributes("status")),
+        "period": ("motion", [motion.period or 0 for motion in motions], attributes("period")),
+    }
+    result = dataset(osc, columns, {parameter: checked})
+    return result.assign_coords(motion=[str(motion) for motion in motions])

@@ -1,0 +1,212 @@
+"""Results block by block into a Zarr store: larger than memory, spread over processes, resumed after a kill."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from hashlib import sha256
+from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from tqdm import tqdm
+
+from gearpair.ensembles.datasets import axis_attributes, variables_of
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from distributed import Client
+    from zarr import Group
+
+BLOCK_POINTS = 2**16  # motions of a block, unless one row has more: some seconds of work, some megabytes
+
+
+class Job(Protocol):
+    """A grid of motions that can be computed in any parts and always comes out the same."""
+
+    @property
+    def axes(self) -> dict[str, NDArray[np.float64]]:
+        """Names and values of the dimensions; blocks are cut along the first."""
+
+    @property
+    def identity(self) -> dict[str, str]:
+        """Everything that the numbers depend on, by name."""
+
+    def columns(self, first: int, last: int, *, cores: bool = True) -> dict[str, NDArray[Any]]:
+        """The results for rows `first` to `last` of the first axis, as codes; on one core only where so asked."""
+
+
+def need_zarr() -> None:
+    """Raise an ImportError that says what to install, if it is missing."""
+    if find_spec("zarr") is None:
+        raise ImportError("a store needs zarr: pip install 'gearpair[cluster]'")
+
+
+def fill(job: Job, path: str | Path, *, client: Client | None = None, progress: bool = False) -> Group:
+    """Compute what is not yet in the store at `path`, block by block; with a `client`, on its workers.
+
+    A block counts once all of it is written, so a run killed at any moment goes on where it was. Every chunk of the
+    store belongs to one block, and only one worker has it.
+
+    Raises
+    ------
+    ImportError
+        Without zarr.
+    ValueError
+        For a store made with other arguments or another engine: it says which.
+    """
+    need_zarr()
+    group = _opened(job, Path(path))
+    finished = group["done"][:].tolist()
+    todo = [i for i, done in enumerate(finished) if not done]
+    with tqdm(total=len(finished), initial=len(finished) - len(todo), unit="block", disable=not progress) as bar:
+        if client is None:
+            for i in todo:
+                fill_block(job, str(path), i)
+                bar.update()
+        else:
+            from distributed import as_completed
+
+            shared = client.scatter(job, broadcast=True, hash=False)
+            same = [shared] * len(todo), [str(path)] * len(todo)
+            for future in as_completed(client.map(fill_block, *same, todo, cores=False, pure=False)):
+                future.result()
+                bar.update()
+    return group
+
+
+def fill_block(job: Job, path: str, i: int, *, cores: bool = True) -> None:
+    """Compute block `i` and write it; its mark comes last."""
+    import zarr
+
+    group = zarr.open_group(path, mode="r+")
+    first, last = _blocks(job, group)[i]
+    for name, column in job.columns(first, last, cores=cores).items():
+        array = group[name]
+        array[first:last] = column.reshape(last - first, *array.shape[1:])
+    group["done"][i] = True
+
+
+def add_column(job: Job, group: Group, name: str, dtype: Any) -> Any:
+    """An array of the store for one more number per motion, made anew."""
+    return _create(job, group, name, np.empty(0, dtype))
+
+
+def add_table(group: Group, variables: Mapping[str, Any]) -> None:
+    """Small variables besides those of each motion; with them a store is complete."""
+    for name, (dims, values, facts) in variables.items():
+        array = group.create_array(
+            name, shape=values.shape, dtype=values.dtype, dimension_names=dims, attributes=facts, overwrite=True
+        )
+        array[:] = values
+    group.attrs["complete"] = True
+
+
+def read_blocks(job: Job, group: Group, names: list[str]) -> Any:
+    """For each block in turn its first and last row and the columns `names`, flat."""
+    for first, last in _blocks(job, group):
+        yield first, last, {name: group[name][first:last].ravel() for name in names}
+
+
+def opened_dataset(path: str | Path) -> xr.Dataset:
+    """What a store holds, read when it is asked for; codes stay codes, see `decoded`."""
+    import xarray as xr
+
+    stored = xr.open_zarr(path, chunks=None, consolidated=False, mask_and_scale=False)
+    result = stored.drop_vars("done")
+    result.attrs = {"oscillator": result.attrs["oscillator"]}
+    if "attractor_number" in result.sizes:
+        result = result.assign_coords(attractor_number=np.arange(result.sizes["attractor_number"]))
+    return result
+
+
+def decoded(result: xr.Dataset) -> xr.Dataset:
+    """A stored result in memory, with words for its codes: what the same call gives without a store.
+
+    Examples
+    --------
+    >>> from gearpair.ensembles import basins
+    >>> from gearpair.oscillator import Oscillator
+    >>> decoded(basins(Oscillator(), [1.0], [0.0])).status.values.tolist()
+    [['periodic']]
+    """
+    result = result.load()
+    for name in list(result):
+        words = result[name].attrs.get("flag_meanings")
+        if words is not None:
+            column = result[name]
+            spelled = np.array(["" if word == "-" else word for word in words.split(" ")])[column.values + 1]
+            facts = {key: fact for key, fact in column.attrs.items() if not key.startswith("flag_")}
+            result = result.assign({name: (column.dims, spelled, facts)})
+    return result
+
+
+@cache
+def engine() -> str:
+    """What numbers depend on besides the arguments: the sources that make them and the compiler."""
+    folder = Path(__file__).parents[1]
+    sources = sorted(path for room in ("_flow", "motion", "ensembles") for path in (folder / room).glob("*.py"))
+    digest = sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()[:16]
+    return f"sources {digest}, numba {version('numba')}"
+
+
+def fingerprint(values: NDArray[Any]) -> str:
+    """A short text that tells arrays apart."""
+    return f"{len(values)} numbers, {sha256(np.ascontiguousarray(values).tobytes()).hexdigest()[:16]}"
+
+
+def _opened(job: Job, path: Path) -> Group:
+    import zarr
+
+    identity = {**job.identity, **{name: fingerprint(values) for name, values in job.axes.items()}, "engine": engine()}
+    if path.exists() and any(path.iterdir()) and not (path / "zarr.json").exists():
+        raise ValueError(f"store must be a new path or one of gearpair's own, got {path}, which holds something else")
+    group = zarr.open_group(str(path), mode="a")
+    made: Mapping[str, Any] = group.attrs.get("identity", {})
+    if not made:
+        _lay_out(job, group)
+        group.attrs["identity"] = identity  # last: without it the next run begins again
+        return group
+    for name in (*identity, *made):
+        if made.get(name) != identity.get(name):
+            raise ValueError(
+                f"the store at {path} was made with another {name} ({made.get(name)}, now {identity.get(name)}): "
+                "give another path, or remove it"
+            )
+    return group
+
+
+def _blocks(job: Job, group: Group) -> list[tuple[int, int]]:
+    """First and last row of each block of a store."""
+    n, rows = len(next(iter(job.axes.values()))), int(group.attrs["rows"])
+    return [(first, min(first + rows, n)) for first in range(0, n, rows)]
+
+
+def _lay_out(job: Job, group: Group) -> None:
+    """All arrays of a store, empty but for the axes."""
+    lengths = [len(values) for values in job.axes.values()]
+    group.attrs["rows"] = max(1, min(lengths[0], BLOCK_POINTS // max(1, int(np.prod(lengths[1:])))))
+    group.attrs["oscillator"] = job.identity["oscillator"]
+    for name, column in job.columns(0, 0).items():
+        _create(job, group, name, column)
+    for name, values in job.axes.items():
+        array = group.create_array(
+            name, shape=values.shape, dtype=values.dtype, dimension_names=(name,), attributes=axis_attributes(name),
+            overwrite=True,
+        )  # fmt: skip
+        array[:] = values
+    blocks = len(_blocks(job, group))
+    group.create_array("done", shape=(blocks,), chunks=(1,), dtype=bool, dimension_names=("block",), overwrite=True)
+
+
+def _create(job: Job, group: Group, name: str, empty: NDArray[Any]) -> Any:
+    shape = tuple(len(values) for values in job.axes.values())
+    facts = variables_of({name: empty}, (name,), (0,), coded=True)[name][2]
+    chunks = (int(group.attrs["rows"]), *shape[1:])
+    return group.create_array(
+        name, shape=shape, chunks=chunks, dtype=empty.dtype, dimension_names=tuple(job.axes), attributes=facts,
+        overwrite=True,
+    )  # fmt: skip

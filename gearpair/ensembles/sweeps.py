@@ -1,0 +1,257 @@
+"""The settled motion along one parameter, or over a grid of several: the numbers of diagrams and maps."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair._checks import check_choice
+from gearpair._flow.settle import Settled
+from gearpair.ensembles.capture import found_in, number_attractors
+from gearpair.ensembles.datasets import (
+    attributes,
+    dataset,
+    oscillators_along,
+    settled_columns,
+    settled_variables,
+    variables_of,
+)
+from gearpair.ensembles.stores import fill, opened_dataset
+from gearpair.motion.measures import measure_columns
+from gearpair.motion.same_orbit import SAME_ORBIT
+from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.trajectories import check_start
+from gearpair.oscillator import Oscillator
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from distributed import Client
+
+
+def sweep(
+    osc: Oscillator,
+    parameter: str,
+    values: ArrayLike,
+    *,
+    x: float = 1.0,
+    v: float = 0.0,
+    seeding: Literal["carry", "restart"] = "carry",
+    n_transient: int | None = None,
+    max_period: int = 64,
+    n_exponent: int = 2000,
+    n_samples: int = 128,
+    progress: bool = False,
+) -> xr.Dataset:
+    """The settled motion at each value of one parameter.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    parameter : str
+        One of ``osc.parameters``.
+    values : array_like of float, shape (n,)
+        Visited in the order given, which is the direction of the sweep.
+    x, v : float
+        The start: of the first value when carrying, of every value when restarting.
+    seeding : {"carry", "restart"}
+        ``"carry"`` starts each value where the one before it ended, as an experiment does;
+        ``"restart"`` starts each from (x, v), in parallel over the cores.
+    n_transient, max_period, n_exponent
+        As in `steady_state`.
+    n_samples : int
+        Section points kept per value; at least `max_period` are.
+    progress : bool
+        Show a progress bar on stderr, with the most mesh periods that all may take.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimensions ``(parameter, sample)``: ``x, v`` on the section, and per value ``status``, ``period``,
+        ``impact_state``, ``x_min``, ``x_max``, ``exponent`` and ``exponent_error``.
+
+    Raises
+    ------
+    ValueError
+        For an unknown parameter, a value out of range, or no values.
+
+    Examples
+    --------
+    >>> diagram = sweep(Oscillator(), "mesh_frequency", [1.65, 1.7], seeding="restart")
+    >>> dict(diagram.sizes)
+    {'mesh_frequency': 2, 'sample': 128}
+    """
+    oscillators, checked = oscillators_along(osc, parameter, values)
+    check_choice("seeding", seeding, ("carry", "restart"))
+    settings = SettleSettings(
+        n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=max(n_samples, max_period)
+    )
+    starts = np.broadcast_to(check_start(x, v), (len(oscillators), 2))
+    out = settle_batch(
+        oscillators, starts, settings, chain=len(oscillators) if seeding == "carry" else 1, progress=progress
+    )
+    variables = settled_variables(out, (parameter,), (len(checked),))
+    for i, name in enumerate(("x", "v")):
+        variables[name] = ((parameter, "sample"), out.points[:, :, i], attributes(name))
+    return dataset(osc, variables, {parameter: checked}, seeding=seeding)
+
+
+def parameter_map(
+    osc: Oscillator,
+    axes: Mapping[str, ArrayLike],
+    *,
+    x: float = 1.0,
+    v: float = 0.0,
+    measures: bool = False,
+    starts: ArrayLike | None = None,
+    carried: str | None = None,
+    n_transient: int | None = None,
+    max_period: int = 64,
+    n_exponent: int = 500,
+    most_work: int | None = None,
+    store: str | Path | None = None,
+    client: Client | None = None,
+    progress: bool = False,
+) -> xr.Dataset:
+    """The settled motion from one start at every point of a grid of parameters, in parallel over the cores.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    axes : mapping of str to array_like of float
+        Parameter names (of ``osc.parameters``) and their values, one or more.
+    x, v : float
+        The start, the same everywhere.
+    measures : bool
+        Add the impact measures (`gearpair.motion.ImpactMeasures`) of each motion.
+    starts : array_like of float, shape (n, 2), optional
+        Add ``n_attractors``: how many different attractors these starts (X, X') lead to at each point.
+    carried : str, optional
+        One of the axes: add ``hysteresis``, whether the motion carried up along it, from (x, v) at its first value,
+        differs from that carried down. With a `store` it must not be the first axis, along which blocks are cut.
+    n_transient, max_period, n_exponent
+        As in `steady_state`.
+    most_work : int, optional
+        Mesh periods that all points together may take at most; one that would need more than its share ends as
+        ``"exhausted"``.
+    store, client
+        As in `gearpair.basins`.
+    progress : bool
+        Show a progress bar on stderr, with the most mesh periods that all may take.
+
+    Returns
+    -------
+    xarray.Dataset
+        The axes are its dimensions, in their order; variables ``status``, ``period``, ``impact_state``,
+        ``x_min``, ``x_max``, ``exponent``, ``exponent_error``, and what was asked for.
+
+    Raises
+    ------
+    ValueError
+        For no axes, an unknown parameter, a value out of range, or a store that was made with other arguments.
+    ImportError
+        For a store without zarr, which the extra ``cluster`` brings.
+
+    Examples
+    --------
+    >>> grid = parameter_map(Oscillator(), {"mesh_frequency": [0.6, 0.7], "damping_ratio": [0.1]}, measures=True)
+    >>> grid.period.values.tolist(), grid.drive_impacts.values.tolist()
+    ([[1], [1]], [[0.0], [1.0]])
+    """
+    if not axes:
+        raise ValueError("axes must name at least one parameter and its values, got none")
+    checked = {name: oscillators_along(osc, name, values)[1] for name, values in axes.items()}
+    if carried is not None:
+        check_choice("carried", carried, tuple(checked))
+    settings = SettleSettings(
+        n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1, measures=measures,
+        most_work=most_work,
+    )  # fmt: skip
+    others = np.empty((0, 2)) if starts is None else np.array(starts, dtype=float)
+    if others.ndim != 2 or others.shape[1] != 2 or not np.all(np.isfinite(others)):
+        raise ValueError(f"starts must be pairs of finite numbers, got shape {others.shape}")
+    grid = Grid(osc, checked, check_start(x, v), settings, others, carried)
+    first_axis = next(iter(checked))
+    if store is None:
+        if client is not None:
+            raise ValueError("a client needs a store to write to, on a path that all its workers see: give store, too")
+        shape = tuple(len(values) for values in checked.values())
+        columns = grid.columns(0, shape[0], progress=progress)
+        return dataset(osc, variables_of(columns, tuple(checked), shape), checked)
+    if carried == first_axis:
+        raise ValueError(f"carried must not be the first axis of a stored map, {first_axis!r}: name the axes otherwise")
+    fill(grid, store, client=client, progress=progress)
+    return opened_dataset(store)
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A grid of parameters to be settled in any parts (a `gearpair.ensembles.stores.Job`)."""
+
+    osc: Oscillator
+    axes: dict[str, NDArray[np.float64]]
+    start: tuple[float, float]
+    settings: SettleSettings
+    others: NDArray[np.float64]
+    carried: str | None
+
+    @property
+    def identity(self) -> dict[str, str]:
+        """What the numbers depend on besides the axes."""
+        return {
+            "kind": "parameter_map",
+            "oscillator": repr(self.osc),
+            "start": repr(self.start),
+            "settings": repr(self.settings),
+            "starts": repr(self.others.tolist()),
+            "carried": repr(self.carried),
+        }
+
+    def columns(self, first: int, last: int, *, cores: bool = True, progress: bool = False) -> dict[str, NDArray[Any]]:
+        """The results for rows `first` to `last` of the first axis, as codes."""
+        (name, values), *rest = self.axes.items()
+        part = {name: values[first:last], **dict(rest)}
+        points = list(product(*part.values()))
+        oscillators = [self.osc.replace(**dict(zip(part, point, strict=True))) for point in points]
+        out = self._settle(oscillators, cores=cores, progress=progress)
+        columns = settled_columns(out)
+        if self.settings.measures:
+            columns |= measure_columns(out.measures, np.array([o.mean_force for o in oscillators]))
+        if len(self.others):
+            columns["n_attractors"] = self._attractors(oscillators, cores)
+        if self.carried is not None:
+            columns["hysteresis"] = self._hysteresis(oscillators, tuple(map(len, part.values())), cores)
+        return columns
+
+    def _settle(self, oscillators: list[Oscillator], *, chain: int = 1, **how: bool) -> Settled:
+        starts = np.broadcast_to(self.start, (len(oscillators), 2))
+        share = self.settings.share_of_work(int(np.prod([len(values) for values in self.axes.values()])))
+        return settle_batch(oscillators, starts, self.settings, chain=chain, share=share, **how)
+
+    def _attractors(self, oscillators: list[Oscillator], cores: bool) -> NDArray[np.int64]:
+        """How many attractors the other starts reach, for each oscillator."""
+        n = len(self.others)
+        out = settle_batch(oscillators, np.tile(self.others, (len(oscillators), 1)), self.settings, cores=cores)
+        columns = settled_columns(out)
+        own = ({name: c[i : i + n] for name, c in columns.items()} for i in range(0, len(out.status), n))
+        return np.array([len(number_attractors([found_in(each)[0]])[1]["first"]) for each in own], dtype=np.int64)
+
+    def _hysteresis(self, oscillators: list[Oscillator], shape: tuple[int, ...], cores: bool) -> NDArray[np.bool_]:
+        """Whether the motions carried up and down along the axis differ."""
+        axis = list(self.axes).index(str(self.carried))
+        order = np.moveaxis(np.arange(len(oscillators)).reshape(shape), axis, -1)
+        length = shape[axis]
+        ways = []
+        for visited in (order, order[..., ::-1]):
+            lanes = visited.ravel()
+            out = settled_columns(self._settle([oscillators[i] for i in lanes], chain=max(length, 1), cores=cores))
+            ways.append({name: column[np.argsort(lanes)] for name, column in out.items()})
+        up, down = ways
+        apart = np.maximum(*(np.abs(up[name] - down[name]) for name in ("section_x", "section_v")))
+        differs = np.any([up[name] != down[name] for name in ("status", "period", "impact_state")], axis=0)
+        return np.asarray(differs | (apart > SAME_ORBIT))

@@ -1,0 +1,145 @@
+"""All attractors along a parameter with the shares of their basins, and where one of them ends."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair._checks import check_count, check_number
+from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, seeds
+from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
+from gearpair.ensembles.planes import ATTRACTOR_COLUMNS
+from gearpair.ensembles.shares import random_starts
+from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.oscillator import Oscillator
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def continue_attractors(
+    osc: Oscillator,
+    parameter: str,
+    values: ArrayLike,
+    *,
+    n: int = 500,
+    x_reach: tuple[float, float] = (-4.0, 4.0),
+    v_reach: tuple[float, float] = (-3.0, 3.0),
+    seed: int = 0,
+    nearest: float = 0.3,
+    n_transient: int | None = None,
+    max_period: int = 64,
+    n_exponent: int = 500,
+) -> xr.Dataset:
+    """The attractors at each value of a parameter, matched from value to value, with their shares of random starts.
+
+    Parameters
+    ----------
+    osc : Oscillator
+    parameter : str
+        One of ``osc.parameters``.
+    values : array_like of float, shape (m,)
+        Visited in the order given.
+    n : int
+        Starts, drawn evenly from the rectangle, the same at every value.
+    x_reach, v_reach : (float, float)
+        Smallest and largest X and X' of the rectangle.
+    seed : int
+        Of the random numbers.
+    nearest : float
+        Attractors of neighbouring values are one if their smallest and largest X differ by no more.
+    n_transient, max_period, n_exponent
+        As in `steady_state`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``(parameter, attractor)``: ``share`` (nan where the attractor was not found), ``attractor_status``,
+        ``attractor_period``, ``attractor_impact_state``, ``attractor_x_min``, ``attractor_x_max``,
+        ``attractor_exponent``, and ``tips_to``: at the first value without the attractor, the number of the one that
+        its motion goes over to (-2 where it escapes), -1 elsewhere. Attractors are numbered as they turn up.
+
+    Raises
+    ------
+    ValueError
+        For an unknown parameter, a value out of range, or a rectangle without area.
+
+    Notes
+    -----
+    The field's "global continuation" (Datseris, Luiz Rossi and Wagemakers, 2023): the attractors of one value are the
+    first starts of the next. An attractor goes on as the one that its own motion settles on, if that is near; where it
+    is not, the attractor has ended, and its motion has tipped. One that turns up again takes its old number, if it is
+    near where it was last seen.
+
+    Examples
+    --------
+    >>> shares = continue_attractors(Oscillator(), "damping_ratio", [0.15, 0.16, 0.17], n=50)
+    >>> shares.share.values.tolist(), int(shares.tips_to.max())
+    ([[1.0], [1.0], [1.0]], -1)
+    """
+    oscillators, checked = oscillators_along(osc, parameter, values)
+    nearest = check_number("nearest", nearest, above=0.0)
+    starts = random_starts(check_count("n", n), x_reach, v_reach, seed)
+    settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
+    tables: list[dict[int, dict[str, float]]] = []
+    places: dict[int, NDArray[np.float64]] = {}  # number -> the extremes it was last seen with
+    points: dict[int, NDArray[np.float64]] = {}  # number at the value before -> a point of it
+    tips: list[dict[int, int]] = []
+    for each in oscillators:
+        before = list(points)
+        here = np.concatenate([starts, *(points[number][np.newaxis] for number in before)])
+        first = np.concatenate([seeds(n), np.arange(n, len(here))])
+        out = settle_batch([each], here, settings, known=known_attractors(each, here[first], settings))
+        columns = settled_columns(out)
+        found, place = found_in(columns)
+        (numbers,), table = number_attractors([found])
+        labels = numbers[place]
+        extremes = np.column_stack([table["x_min"], table["x_max"]])
+        given, tipped = _matched(dict(zip(before, labels[n:].tolist(), strict=True)), places, extremes, nearest)
+        counts = np.bincount(labels[:n][labels[:n] >= 0], minlength=len(extremes))
+        tables.append(
+            {
+                number: {"share": counts[k] / n, **{name: table[name][k] for name in ATTRACTOR_COLUMNS}}
+                for k, number in enumerate(given)
+            }
+        )
+        tips.append(tipped)
+        points = {number: out.points[table["first"][k], 0] for k, number in enumerate(given)}
+        places |= {number: extremes[k] for k, number in enumerate(given)}
+    shape = len(checked), len(places)
+    columns = {name: np.full(shape, np.nan) for name in ("share", "x_min", "x_max", "exponent")}
+    columns |= {name: np.full(shape, -1) for name in ("status", "impact_state", "tips_to")}
+    columns["period"] = np.zeros(shape, np.int64)
+    for i, (rows, tipped) in enumerate(zip(tables, tips, strict=True)):
+        for number, row in rows.items():
+            for name, value in row.items():
+                columns[name][i, number] = value
+        for number, to in tipped.items():
+            columns["tips_to"][i, number] = to
+    named = {name if name in ("share", "tips_to") else f"attractor_{name}": column for name, column in columns.items()}
+    variables = variables_of(named, (parameter, "attractor"), shape)
+    return dataset(osc, variables, {parameter: checked}).assign_coords(attractor=np.arange(shape[1]))
+
+
+def _matched(
+    leads_to: dict[int, int], places: dict[int, NDArray[np.float64]], extremes: NDArray[np.float64], nearest: float
+) -> tuple[list[int], dict[int, int]]:
+    """Numbers for the attractors found here, and for each number that has ended the one that it tips to.
+
+    `leads_to` has, for each number of the value before, the attractor found here that its motion settles on, or -1.
+    """
+    given = [-1] * len(extremes)
+    apart = {number: np.abs(extremes - place).max(axis=1) for number, place in places.items()}
+    for number, k in sorted(leads_to.items(), key=lambda pair: apart[pair[0]][pair[1]] if pair[1] >= 0 else np.inf):
+        if k >= 0 and given[k] < 0 and apart[number][k] <= nearest:
+            given[k] = number
+    ended = {number: k for number, k in leads_to.items() if number not in given}
+    for k in range(len(given)):
+        if given[k] < 0:  # one that was here before, the nearest first, or a new one
+            back = sorted(
+                (apart[number][k], number) for number in places if number not in given and number not in ended
+            )
+            given[k] = back[0][1] if back and back[0][0] <= nearest else max([*places, *given, -1]) + 1
+    return given, {number: given[k] if k >= 0 else -2 for number, k in ended.items()}

@@ -1,0 +1,100 @@
+"""Tables for people: aligned as text, ruled as HTML, the same numbers in both."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape, unescape
+from typing import Any
+
+# Plain names of symbols, and how they are set in HTML.
+GREEK = dict(
+    zip(("Omega", "omega", "theta", "zeta", "phi", "psi", "eps", "epsilon", "tau", "pi"), "Ωωθζφψεετπ", strict=True)
+)
+SYMBOLS = {**GREEK, ">=": "≥", "<=": "≤", "-+": "∓"}
+SYMBOL = re.compile("|".join(rf"(?<!\w){re.escape(escape(name))}(?!\w)" for name in SYMBOLS))
+INDEX = re.compile(r"(?<!\w)((?:Omega|omega|phi|[FTXbcekmr])(?=_)|theta(?=\d))_?(min|max|ah|b1|b2|[aehmn12])(?!\w)")
+PRIMES = re.compile(r"(?:(?<=\b[Xxe])|(?<=F<sub>m</sub>))(?:&#x27;)+(?!\w)")
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows under headings; its `repr` is aligned text, and a notebook shows it as HTML with its symbols set.
+
+    Parameters
+    ----------
+    columns : sequence of str
+        The headings.
+    rows : sequence of sequences
+        As many cells each as there are columns; numbers stand to the right. A cell is shown as `str` gives it, so
+        format floats first.
+
+    Raises
+    ------
+    ValueError
+        For a row with more or fewer cells than there are columns.
+
+    Examples
+    --------
+    >>> Table(["motion", "from", "to"], [["period 2", "0.700", "0.766"], ["chaos", "0.81", "0.814"]])
+    motion     from     to
+    ----------------------
+    period 2  0.700  0.766
+    chaos      0.81  0.814
+    """
+
+    columns: Sequence[str]
+    rows: Sequence[Sequence[Any]]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "columns", tuple(str(column) for column in self.columns))
+        object.__setattr__(self, "rows", tuple(tuple(str(cell) for cell in row) for row in self.rows))
+        for i, row in enumerate(self.rows):
+            if len(row) != len(self.columns):
+                raise ValueError(f"row {i} of the table must have {len(self.columns)} cells, got {len(row)}")
+
+    @property
+    def right(self) -> tuple[bool, ...]:
+        """Whether each column holds numbers only (empty cells and dashes aside) and so stands to the right."""
+        return tuple(
+            any(map(_is_number, cells)) and all(_is_number(cell) or cell in ("", "-", "–") for cell in cells)
+            for cells in (list(column) for column in zip(*self.rows, strict=True))
+        ) or (False,) * len(self.columns)
+
+    def __repr__(self) -> str:
+        lines = [self.columns, *self.rows]
+        widths = [max(map(len, cells)) for cells in zip(*lines, strict=True)]
+        texts = [
+            "  ".join(
+                cell.rjust(width) if right else cell.ljust(width)
+                for cell, width, right in zip(line, widths, self.right, strict=True)
+            ).rstrip()
+            for line in lines
+        ]
+        return "\n".join([texts[0], "-" * max(map(len, texts)), *texts[1:]])
+
+    def _repr_html_(self) -> str:
+        def line(tag: str, cells: Sequence[str]) -> str:
+            aligned = zip(cells, self.right, strict=True)
+            marks = [f'<{tag} style="text-align: {"right" if r else "left"}">{_html(c)}</{tag}>' for c, r in aligned]
+            return f"<tr>{''.join(marks)}</tr>"
+
+        head, body = line("th", self.columns), "\n".join(line("td", row) for row in self.rows)
+        return f'<table class="table">\n<thead>\n{head}\n</thead>\n<tbody>\n{body}\n</tbody>\n</table>'
+
+
+def _html(cell: str) -> str:
+    """A cell with its symbols set, and its intervals kept on one line."""
+    text = INDEX.sub(r"\1<sub>\2</sub>", escape(cell))
+    text = SYMBOL.sub(lambda match: SYMBOLS[unescape(match.group())], text)
+    text = PRIMES.sub(lambda match: "′" * unescape(match.group()).count("'"), text).replace("^2", "²")
+    return re.sub(r"(?<=\d)–(?=\d)", "&#8288;–&#8288;", text)
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell.removesuffix("%").strip().replace("\N{MINUS SIGN}", "-"))
+    except ValueError:
+        return False
+    return True

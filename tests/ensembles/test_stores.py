@@ -1,0 +1,171 @@
+"""Zarr stores: the same bits as without, resumed after a kill, on a cluster, refused where they are another's."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+from xarray.testing import assert_identical
+
+import gearpair as gp
+from gearpair.ensembles import decoded, stores
+from tests.support import ROOT
+
+zarr = pytest.importorskip("zarr", reason="the extra 'cluster' is not installed")
+
+KILLS = int(
+    os.environ.get("GEARPAIR_KILLS", "3")
+)  # a few seconds each: more than a few outside of continuous integration
+OSC = gp.Oscillator(mesh_frequency=0.9)
+X, V = np.linspace(-3.0, 3.0, 12), np.linspace(-2.0, 2.0, 10)
+AXES = {"mesh_frequency": [0.7, 0.8, 0.9, 1.2], "damping_ratio": [0.05, 0.1, 0.2]}
+MAP = {"measures": True, "starts": [[0.0, 0.0], [-2.0, 1.0]], "carried": "damping_ratio", "n_exponent": 50}
+
+
+@pytest.fixture(autouse=True)
+def small_blocks(monkeypatch):
+    monkeypatch.setattr(stores, "BLOCK_POINTS", 25)
+
+
+def test_a_stored_plane_is_the_plane(tmp_path):
+    plain = gp.basins(OSC, X, V, n_exponent=50)
+    stored = gp.basins(OSC, X, V, n_exponent=50, store=tmp_path / "plane")
+    assert stored.status.dtype.kind == "i"
+    assert zarr.open_group(tmp_path / "plane")["x_min"].chunks == (2, 12)
+    assert_identical(decoded(stored), plain)
+    assert_identical(decoded(gp.basins(OSC, X, V, n_exponent=50, store=tmp_path / "plane")), plain)
+
+
+def test_a_stored_map_is_the_map(tmp_path):
+    plain = gp.parameter_map(OSC, AXES, **MAP)
+    assert_identical(decoded(gp.parameter_map(OSC, AXES, **MAP, store=tmp_path / "map")), plain)
+
+
+def test_finished_blocks_are_not_computed_again(tmp_path, monkeypatch):
+    gp.parameter_map(OSC, AXES, **MAP, store=tmp_path / "map")
+    group = zarr.open_group(tmp_path / "map", mode="r+")
+    assert group["done"][:].tolist() == [True]
+    monkeypatch.setattr(stores, "fill_block", lambda *arguments, **options: pytest.fail("computed again"))
+    gp.parameter_map(OSC, AXES, **MAP, store=tmp_path / "map")
+    group["done"][0] = False
+    with pytest.raises(pytest.fail.Exception, match="computed again"):
+        gp.parameter_map(OSC, AXES, **MAP, store=tmp_path / "map")
+
+
+def test_another_ones_store_is_refused_by_name(tmp_path, monkeypatch):
+    path = tmp_path / "plane"
+    gp.basins(OSC, X, V, n_exponent=50, store=path)
+    cases = (
+        ("oscillator", lambda: gp.basins(OSC.replace(damping_ratio=0.03), X, V, n_exponent=50, store=path)),
+        ("settings", lambda: gp.basins(OSC, X, V, n_exponent=60, store=path)),
+        ("x", lambda: gp.basins(OSC, X + 1e-9, V, n_exponent=50, store=path)),
+        ("kind", lambda: gp.parameter_map(OSC, AXES, store=path)),
+    )
+    for name, call in cases:
+        with pytest.raises(ValueError, match=f"was made with another {name} "):
+            call()
+    monkeypatch.setattr(stores, "engine", lambda: "another")
+    with pytest.raises(ValueError, match="was made with another engine .*now another"):
+        gp.basins(OSC, X, V, n_exponent=50, store=path)
+    (tmp_path / "letters").mkdir()
+    (tmp_path / "letters" / "a").write_text("dear")
+    with pytest.raises(ValueError, match="holds something else"):
+        gp.basins(OSC, X, V, store=tmp_path / "letters")
+    assert [p.name for p in (tmp_path / "letters").iterdir()] == ["a"]
+
+
+def test_what_a_store_needs_is_said(tmp_path, monkeypatch):
+    with pytest.raises(ValueError, match="a client needs a store"):
+        gp.basins(OSC, X, V, client=object())
+    with pytest.raises(ValueError, match="a client needs a store"):
+        gp.parameter_map(OSC, AXES, client=object())
+    with pytest.raises(ValueError, match="must not be the first axis"):
+        gp.parameter_map(OSC, AXES, carried="mesh_frequency", store=tmp_path / "map")
+    monkeypatch.setattr(stores, "find_spec", lambda name: None)
+    with pytest.raises(ImportError, match=r"gearpair\[cluster\]"):
+        gp.basins(OSC, X, V, store=tmp_path / "plane")
+
+
+RUN = """
+import sys
+import numpy as np
+import gearpair as gp
+from gearpair.ensembles import stores
+from distributed import Client, LocalCluster
+
+if __name__ == "__main__":
+    stores.BLOCK_POINTS = 25
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+        pids = client.run(__import__("os").getpid)
+        print(*pids.values(), flush=True)
+        gp.basins(gp.Oscillator(mesh_frequency=0.9), np.linspace(-3, 3, 12), np.linspace(-2, 2, 10), n_exponent=50,
+                  store=sys.argv[1], client=client)
+"""
+
+
+@pytest.mark.parametrize("victim", ["worker", "all"])
+def test_a_cluster_gives_the_same_bits_though_one_is_killed(tmp_path, victim):
+    """SIGKILL to a worker, or to all of them and the program; the call then goes on where it was."""
+    pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
+    script, path = tmp_path / "run.py", tmp_path / "plane"
+    script.write_text(RUN)
+    kill_on_the_way(script, path, victim)
+    finished = marks(path)
+    stored = gp.basins(OSC, X, V, n_exponent=50, store=path)
+    assert_identical(decoded(stored), gp.basins(OSC, X, V, n_exponent=50))
+    if victim == "worker":
+        assert all(finished)
+
+
+def marks(path):
+    return zarr.open_group(path, mode="r")["done"][:].tolist() if (path / "done").exists() else []
+
+
+def kill_on_the_way(script, path, victim):
+    """Run the script and, once a block is written, kill a worker or everything; wait for what is left of it."""
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "NUMBA_NUM_THREADS": "1"}
+    run = subprocess.Popen(
+        [sys.executable, str(script), str(path)], stdout=subprocess.PIPE, text=True, env=environment
+    )  # fmt: skip
+    assert run.stdout is not None
+    workers = [int(pid) for pid in run.stdout.readline().split()]
+    while run.poll() is None and not any(marks(path)):
+        time.sleep(0.02)
+    for pid in workers[:1] if victim == "worker" else [run.pid, *workers]:
+        os.kill(pid, signal.SIGKILL)
+    run.wait()
+
+
+def test_again_and_again_a_worker_is_killed_on_the_way(tmp_path, monkeypatch):
+    """SIGKILL to one of three workers as soon as a block is written, `KILLS` planes in turn: no bit differs."""
+    distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
+    monkeypatch.setattr(stores, "BLOCK_POINTS", 40)
+    x, v = np.linspace(-3.0, 3.0, 40), np.linspace(-2.0, 2.0, 12)
+    plain = gp.basins(OSC, x, v, n_exponent=50)
+    unfinished = []
+
+    def kill(path, pid):
+        while not any(marks(path)):
+            time.sleep(0.005)
+        os.kill(pid, signal.SIGKILL)
+        unfinished.append(not all(marks(path)))
+
+    monkeypatch.setenv("NUMBA_NUM_THREADS", "1")
+    cluster = distributed.LocalCluster(n_workers=3, threads_per_worker=1, dashboard_address=None)
+    with cluster, distributed.Client(cluster) as client:
+        for k in range(KILLS):
+            nanny = cluster.workers[k % 3]
+            victim = nanny.pid
+            killer = threading.Thread(target=kill, args=(tmp_path / str(k), victim))
+            killer.start()
+            stored = gp.basins(OSC, x, v, n_exponent=50, store=tmp_path / str(k), client=client)
+            killer.join()
+            assert_identical(decoded(stored), plain)
+            while nanny.pid in (None, victim) or nanny.status.name != "running":
+                time.sleep(0.05)
+            client.wait_for_workers(3)
+    assert all(unfinished)

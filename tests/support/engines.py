@@ -1,0 +1,46 @@
+"""The explorer's modules run by node and in a browser, whichever there are: a function of some JSON, and its answer."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.support.explorer_pages import STATIC, opened
+
+MODULES = STATIC / "explorer"
+NODE = """
+const folder = process.argv[1];
+require(`${folder}/load.js`);
+for (const name of gearpairParts.motion) require(`${folder}/${name}.js`);
+const { source, data } = JSON.parse(require("fs").readFileSync(0, "utf8"));
+process.stdout.write(JSON.stringify((0, eval)(`(${source})`)(data)));
+"""
+
+
+def run_in_node(source: str, data: Any) -> Any:
+    """``source(data)``, `source` a JavaScript function that may use ``gearpair``."""
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("no node: install nodejs, or leave it to the browser")
+    result = subprocess.run(
+        [node, "-e", NODE, str(MODULES)], input=json.dumps({"source": source, "data": data}),
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert result.returncode == 0, result.stderr
+    return json.loads(result.stdout)
+
+
+def run_in_chromium(browser: Any, source: str, data: Any) -> Any:
+    """The same in a page of a real browser."""
+    with tempfile.TemporaryDirectory() as folder:
+        page = Path(folder) / "page.html"
+        load = (MODULES / "load.js").as_uri()
+        page.write_text(f'<!DOCTYPE html><title>x</title><script src="{load}" data-part="motion" defer></script>')
+        with opened(browser) as go:
+            return json.loads(go(page.as_uri()).evaluate(f"JSON.stringify(({source})({json.dumps(data)}))"))

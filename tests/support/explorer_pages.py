@@ -1,0 +1,57 @@
+"""The explorer's page without the book's theme, for tests in a browser and by hand."""
+
+import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from tests.support import ROOT
+
+STATIC = ROOT / "book" / "_static"
+
+
+@contextmanager
+def opened(browser: Any) -> Iterator[Callable[..., Any]]:
+    """Give what opens an address; in no page may anything go wrong or be fetched from elsewhere."""
+    context = browser.new_context(viewport={"width": 1300, "height": 1600})
+    context.set_default_timeout(120_000)  # a page that is silent for longer hangs
+    errors, requests = [], []
+    context.on("weberror", lambda error: errors.append(str(error.error)))
+    context.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
+    context.on("request", lambda request: requests.append(request.url))
+
+    def go(url: str, **media: str) -> Any:
+        page = context.new_page()
+        page.emulate_media(**media)
+        page.goto(url)
+        return page
+
+    try:
+        yield go
+        assert errors == []
+        assert [url for url in requests if not url.startswith(("file:", "blob:", "about:"))] == []
+    finally:
+        context.close()
+
+
+def write_page(folder: Path) -> Path:
+    """The raw HTML of book/explorer.md as a page of its own, beside the scripts where they are."""
+    text = (ROOT / "book" / "explorer.md").read_text(encoding="utf-8")
+    (fragment,) = re.findall(r"```\{raw\} html\n(.*?)```", text, flags=re.DOTALL)
+    fragment = fragment.replace("../_static", STATIC.as_uri())
+    page = folder / "explorer.html"
+    page.write_text(
+        f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>Explorer</title>'
+        f'<meta name="viewport" content="width=device-width"></head><body>{fragment}</body></html>',
+        encoding="utf-8",
+    )
+    return page
+
+
+def write_pairs_page(folder: Path) -> Path:
+    """A page with the two small pairs of book/moving_pairs.html alone."""
+    page = folder / "pairs.html"
+    body = (ROOT / "book" / "moving_pairs.html").read_text(encoding="utf-8").replace("../_static", STATIC.as_uri())
+    page.write_text(f'<!DOCTYPE html><html lang="en"><title>Pairs</title><body>{body}</body></html>', encoding="utf-8")
+    return page

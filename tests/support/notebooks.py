@@ -1,0 +1,18 @@
+"""Small chapters to run, and to break."""
+
+from pathlib import Path
+
+import nbformat
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+
+PARAMETERS = "a: float = 0.116  # stiffness added in double contact"
+MEAN = "import gearpair as gp\nprint(f'{gp.StiffnessWave.rectangular(a=a).mean:.4f}')"
+
+
+def write_notebook(path: Path, *code: str, parameters: str = PARAMETERS, tags: tuple[str, ...] = ("parameters",)):
+    """A chapter with a title, a parameters cell and the given code cells."""
+    cells = [new_markdown_cell("# A small chapter"), new_code_cell(parameters, metadata={"tags": list(tags)})]
+    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3"}, "language_info": {"name": "python"}}
+    notebook = new_notebook(metadata=kernel, cells=[*cells, *map(new_code_cell, code)])
+    nbformat.write(notebook, path)
+    return path
