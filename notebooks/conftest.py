@@ -35,9 +35,11 @@ class ChapterFile(IPyNbFile):
 
     def collect(self):
         for cell in super().collect():
-            yield ChapterCell.from_parent(
+            own = ChapterCell.from_parent(
                 self, name=cell.name, cell_num=cell.cell_num, cell=cell.cell, options=cell.options
             )
+            own.add_marker("slow")
+            yield own
 
     @cached_property
     def executed(self) -> nbformat.NotebookNode | StudyError:

@@ -147,6 +147,7 @@ def test_numbers_glued_into_the_prose_are_formatted_texts(path):
 
 
 @pytest.mark.parametrize("name", CHAPTERS)
+@pytest.mark.slow
 def test_a_chapter_runs_with_other_parameters(name, tmp_path):
     chapter = BOOK.chapter(name)
     values = chapter.parse(list(CHANGED[name].items()))
@@ -181,6 +182,7 @@ def test_a_chapter_checks_its_parameters_before_a_kernel_starts(name):
         ),
     ],
 )
+@pytest.mark.slow
 def test_papermill_itself_stops_at_what_is_out_of_range(tmp_path, words, sentence):
     (tmp_path / "mine.yml").write_text("n_values: 1\n")
     command = [sys.executable, "-m", "papermill", str(BOOK.chapter("damping_sweep").path), "out.ipynb", *words]
@@ -192,6 +194,7 @@ def test_papermill_itself_stops_at_what_is_out_of_range(tmp_path, words, sentenc
     assert "check_parameters" in ran[-1].source  # nothing after it was run
 
 
+@pytest.mark.slow
 def test_nbval_sees_a_broken_library(small_book, tmp_path):
     """The stored outputs are compared for real: one changed constant in the library, and nbval is red."""
     notebook = write_notebook(small_book / "notebooks" / "small.ipynb", MEAN)

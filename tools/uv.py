@@ -48,14 +48,14 @@ def get_uv(environment: Path) -> Path | None:
     """uv in an environment made by ``python -m venv``; None where it cannot be had."""
     uv = environment / "bin" / "uv"
     if not uv.is_file():
-        command = [environment / "bin" / "python", *PIP, "install", "--no-compile", "--retries", "1", UV]
+        command = [str(environment / "bin" / "python"), *PIP, "install", "--no-compile", "--retries", "1", UV]
         subprocess.run(command, check=False)
     return uv if uv.is_file() else None
 
 
 def main(environment: Path, words: list[str]) -> int:
     """Run uv for the environment; return its exit code, or pip's for ``pip install`` where uv fails."""
-    python = environment / "bin" / "python"
+    python = str(environment / "bin" / "python")
     if uv := get_uv(environment):
         listed = subprocess.run([python, *PIP, "config", "list"], check=False, capture_output=True, text=True).stdout
         settings = {**os.environ, **settings_for_uv(listed, os.environ), "VIRTUAL_ENV": str(environment.absolute())}

@@ -100,6 +100,7 @@ def links_to_motions():
 
 
 @pytest.mark.parametrize(("source", "paragraph", "target", "hash", "text"), links_to_motions())
+@pytest.mark.slow
 def test_a_link_shows_the_motion_that_its_text_names(explorer, source, paragraph, target, hash, text):
     chapter = source.suffix == ".ipynb"
     assert target == ("../explorer.html" if chapter else "explorer.html")

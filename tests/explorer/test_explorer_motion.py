@@ -76,6 +76,7 @@ def records() -> list[tuple[dict, gp.Trajectory, float]]:
     ]
 
 
+@pytest.mark.slow
 def test_states_and_impacts_of_ten_thousand_oscillators_and_every_degenerate_case(run):
     cases, motions, growths = zip(*records(), strict=True)
     worst = 0.0
@@ -115,6 +116,7 @@ def gear_pair(rng: np.random.Generator) -> gp.Oscillator:
     )
 
 
+@pytest.mark.slow
 def test_settled_motions(run):
     rng = np.random.default_rng(4)
     states = [gp.steady_state(gear_pair(rng), rng.normal(0.0, 1.5), rng.normal(), max_period=64) for _ in range(400)]
@@ -181,6 +183,7 @@ SPECTRUM = """({ x, v, periods, ...oscillator }) => {
 }"""
 
 
+@pytest.mark.slow
 def test_spectrum_and_samples(run):
     osc = gp.Oscillator()
     motion = gp.trajectory(osc, 1.0, 0.0, 8, samples_per_period=256)

@@ -88,6 +88,8 @@ import warnings
 from numba.core import caching
 from numba.core.caching import Cache, IndexDataCacheFile as File
 from numba.core.dispatcher import Dispatcher
+
+pytestmark = pytest.mark.slow
 warnings.simplefilter("always")
 """
 

@@ -27,11 +27,13 @@ def stored(small_book):
     return store
 
 
+@pytest.mark.slow
 def test_what_is_rounded_is_the_same_on_all_terms(stored, capsys):
     assert main(["--root", str(stored(MEAN))], run=stability) == 0
     assert capsys.readouterr().out.splitlines() == [f"small, {condition}: the same" for condition in CONDITIONS]
 
 
+@pytest.mark.slow
 def test_what_hangs_on_the_last_digits_or_on_the_machine_is_named(stored, capsys):
     assert main(["--root", str(stored(RAW, THREADS)), "small"], run=stability) == 1
     lines = dict(line.split(": ") for line in capsys.readouterr().out.splitlines())

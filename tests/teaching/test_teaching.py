@@ -46,6 +46,7 @@ def test_every_pair_of_teeth_can_be_cut_and_has_a_two_level_wave():
 @pytest.mark.parametrize("force", [MEAN_FORCES[0], MEAN_FORCES[-1]])
 @pytest.mark.parametrize("error", [ERROR_AMPLITUDES[0], ERROR_AMPLITUDES[-1]])
 @pytest.mark.parametrize("damping", [DAMPING_RATIOS[0], DAMPING_RATIOS[-1]])
+@pytest.mark.slow
 def test_every_corner_of_the_choices_has_what_the_assignments_ask_about(pinion, gear, force, error, damping):
     shape = gp.mesh_stiffness(gp.SpurPair(pinion_teeth=pinion, gear_teeth=gear)).rectangular()
     wave = gp.StiffnessWave.rectangular(shape.contact_ratio, shape.a, shape.b)
