@@ -218,6 +218,7 @@ def test_nbval_sees_a_broken_library(small_book, tmp_path):
         ("1 / 0", "chapter small failed in code cell 2 (cell 3 of the notebook): ZeroDivisionError: division by zero"),
     ],
 )
+@pytest.mark.slow
 def test_a_warning_and_an_error_of_a_chapter_are_seen(small_book, cell, sentence):
     notebook = write_notebook(small_book / "notebooks" / "small.ipynb", cell)
     result = nbval(notebook, ROOT)

@@ -9,6 +9,7 @@ import pytest
 
 from tests.support import ROOT
 
+pytestmark = pytest.mark.slow
 FLOW = ROOT / "gearpair" / "_flow"
 # `count_cells` stands in cells.py; the rate it divides by comes from closed_form.py.
 COUNT = """
@@ -88,8 +89,6 @@ import warnings
 from numba.core import caching
 from numba.core.caching import Cache, IndexDataCacheFile as File
 from numba.core.dispatcher import Dispatcher
-
-pytestmark = pytest.mark.slow
 warnings.simplefilter("always")
 """
 
