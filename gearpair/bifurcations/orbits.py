@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gearpair._checks import check_count
 from gearpair._cores import on_all_cores
+from gearpair._equality import equal_by_value
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.cycle import newton_starts
 from gearpair._flow.march import march
@@ -42,6 +43,7 @@ class NewtonStatus(StrEnum):
         }[self]
 
 
+@equal_by_value
 @dataclass(frozen=True, repr=False)
 class PeriodicOrbit:
     """A periodic orbit, stable or not; or the best state reached, where Newton's method did not converge.
