@@ -12,7 +12,8 @@ from tests.support import ROOT
 
 LIBRARY = sorted((ROOT / "gearpair").rglob("*.py"))
 LONGEST_FILE = 400
-SHARED = {"_flow", "_checks", "_cores"}  # below every room: the kernels, and what all rooms check and run with
+# Below every room: the kernels, and what all rooms check, compare and run with.
+SHARED = {"_flow", "_checks", "_cores", "_equality"}
 
 
 def test_imports_keep_the_contracts():

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gearpair._checks import check_count
 from gearpair._cores import on_all_cores
+from gearpair._equality import equal_by_value
 from gearpair._flow.newton import newton_starts
 from gearpair.bifurcations._cycle import describe_cycle
 from gearpair.motion.impacts import ImpactState, impact_state
@@ -38,6 +39,7 @@ class NewtonStatus(StrEnum):
         }[self]
 
 
+@equal_by_value
 @dataclass(frozen=True, repr=False)
 class PeriodicOrbit:
     """A periodic orbit, stable or not; or the best state reached, where Newton's method did not converge.

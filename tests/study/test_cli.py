@@ -128,10 +128,14 @@ def test_ranges_and_relations_are_checked_before_a_kernel_starts(
         ({"n_x": 20}, 2.0),
         ({"n_x": 20, "n_v": 30}, 6.0),
         ({"n_values": 300}, 3.0),
+        ({"n_frequency": 30}, 3.0),
+        ({"n_starts": 400, "n_speeds": 30}, 12.0),
+        ({"n_starts": 400, "n_x": 20}, 4.0),  # the part of the chapter that grows most
     ],
 )
 def test_work_is_counted_in_motions_mesh_periods_and_their_length(changed, ratio):
     names = {"n_x": 10, "n_v": 10, "n_values": 100, "n_transient": 100, "mesh_frequency": 0.7}
+    names |= {"n_frequency": 10, "n_starts": 100, "n_speeds": 10}
     chapter = Chapter(Path("small.ipynb"), "", tuple(Parameter(name, "", value, "") for name, value in names.items()))
     assert work_ratio(chapter, changed) == pytest.approx(ratio)
 
