@@ -70,9 +70,9 @@ def longest_first(jobs: list[Job], cache: Cache) -> list[Job]:
 
     One that began last would keep a single core at work while the others wait.
     """
-    chapters = {_chapter(job.page) for job in jobs}
-    seconds = {chapter.path: cache.seconds(chapter.name) or chapter.seconds for chapter in chapters}
-    return sorted(jobs, key=lambda job: seconds[_chapter(job.page).path], reverse=True)
+    chapters = {_chapter(job.page).name: _chapter(job.page) for job in jobs}
+    seconds = {name: cache.seconds(name) or chapter.seconds for name, chapter in chapters.items()}
+    return sorted(jobs, key=lambda job: seconds[_chapter(job.page).name], reverse=True)
 
 
 def _chapter(page: Chapter | Variant) -> Chapter:
