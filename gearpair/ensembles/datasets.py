@@ -157,6 +157,11 @@ def variables_of(
     return variables
 
 
+def section_variables(parameter: str, points: NDArray[np.float64]) -> dict[str, Any]:
+    """Section points (n, n_samples, 2) along a parameter as xarray variables ``x`` and ``v``."""
+    return {name: ((parameter, "sample"), points[:, :, i], attributes(name)) for i, name in enumerate(("x", "v"))}
+
+
 def settled_variables(out: Settled, dims: tuple[str, ...], shape: tuple[int, ...]) -> dict[str, Any]:
     """The per-motion results as xarray variables over `dims`."""
     columns = settled_columns(out)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +21,7 @@ from gearpair.ensembles.datasets import (
 from gearpair.ensembles.stores import add_column, add_table, fill, opened_dataset, read_blocks
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import Motion, motions_from
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.settling import MANY, BatchOptions, SettleSettings, settle_batch
 from gearpair.motion.steady import SteadyState, steady_state
 from gearpair.motion.trajectories import check_starts
 from gearpair.oscillator import Oscillator
@@ -38,13 +38,10 @@ def basins(
     x: ArrayLike,
     v: ArrayLike,
     *,
-    n_transient: int | None = None,
-    max_period: int = 64,
-    n_exponent: int = 500,
-    most_work: int | None = None,
     store: str | Path | None = None,
     client: Client | None = None,
     progress: bool = False,
+    **settling: Unpack[BatchOptions],
 ) -> xr.Dataset:
     """The attractor that each start of a grid reaches, and what happens on the way.
 
@@ -55,11 +52,6 @@ def basins(
         Initial X.
     v : array_like of float, shape (n_v,)
         Initial X'.
-    n_transient, max_period, n_exponent
-        As in `steady_state`.
-    most_work : int, optional
-        Mesh periods that all starts together may take at most; a start that would need more than its share ends as
-        ``"exhausted"``.
     store : path, optional
         Write the result to a Zarr store, block by block, and return it from there: memory then holds one block. The
         same call goes on with a store that was not finished. Codes stand for words, which
@@ -68,6 +60,8 @@ def basins(
         Compute the blocks on its workers, which must see the path of the store.
     progress : bool
         Show a progress bar on stderr, with the most mesh periods that all may take.
+    **settling
+        See `gearpair.motion.BatchOptions`.
 
     Returns
     -------
@@ -106,10 +100,7 @@ def basins(
     for name, values in (("x", xs), ("v", vs)):
         if values.ndim != 1 or values.size == 0:
             raise ValueError(f"{name} must be a non-empty sequence of numbers, got shape {values.shape}")
-    settings = SettleSettings(
-        n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1, most_work=most_work
-    )
-    plane = Plane.of(osc, xs, vs, settings)
+    plane = Plane.of(osc, xs, vs, MANY.having(settling, BatchOptions))
     if store is not None or client is not None:
         return _stored(plane, store, client, progress)
     columns = plane.columns(0, len(vs), progress=progress)

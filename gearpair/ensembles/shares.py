@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +12,7 @@ from gearpair.ensembles.capture import found_in, known_attractors, number_attrac
 from gearpair.ensembles.datasets import attributes, dataset, oscillators_along, settled_columns
 from gearpair.ensembles.planes import attractor_variables, basins
 from gearpair.motion.names import motions_of
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.settling import MANY, BatchOptions, SettleOptions, settle_batch
 from gearpair.oscillator import Oscillator
 
 if TYPE_CHECKING:
@@ -26,9 +26,7 @@ def basin_stability(
     x_reach: tuple[float, float] = (-4.0, 4.0),
     v_reach: tuple[float, float] = (-3.0, 3.0),
     seed: int = 0,
-    n_transient: int | None = None,
-    max_period: int = 64,
-    n_exponent: int = 500,
+    **settling: Unpack[SettleOptions],
 ) -> xr.Dataset:
     """The share of random starts that each attractor takes, with its standard error.
 
@@ -41,8 +39,8 @@ def basin_stability(
         Smallest and largest X and X' of the rectangle.
     seed : int
         Of the random numbers: the same seed draws the same starts.
-    n_transient, max_period, n_exponent
-        As in `steady_state`.
+    **settling
+        See `gearpair.motion.SettleOptions`.
 
     Returns
     -------
@@ -67,7 +65,7 @@ def basin_stability(
     """
     n = check_count("n", n)
     starts = random_starts(n, x_reach, v_reach, seed)
-    settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
+    settings = MANY.having(settling)
     out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[seeds(n)], settings))
     found, _ = found_in(settled_columns(out))
     _, table = number_attractors([found])
@@ -91,7 +89,7 @@ def motion_shares(
     values: ArrayLike,
     x: ArrayLike,
     v: ArrayLike,
-    **settings: Any,
+    **settling: Unpack[BatchOptions],
 ) -> xr.Dataset:
     """Along one parameter, the share of a grid of starts that reaches each kind of motion.
 
@@ -103,7 +101,7 @@ def motion_shares(
     values : array_like of float, shape (n,)
     x, v : array_like of float
         The grid of starts, as for `gearpair.basins`.
-    **settings
+    **settling
         As for `gearpair.basins`.
 
     Returns
@@ -119,7 +117,7 @@ def motion_shares(
     [[1.0], [1.0]]
     """
     oscillators, checked = oscillators_along(osc, parameter, values)
-    planes = [motions_of(basins(each, x, v, **settings)) for each in oscillators]
+    planes = [motions_of(basins(each, x, v, **settling)) for each in oscillators]
     motions = sorted({motion for plane in planes for motion in plane.ravel()})
     share = [[float(np.mean(plane == motion)) for motion in motions] for plane in planes]
     columns = {

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,9 +15,9 @@ from gearpair._checks import check_choice
 from gearpair._flow.settle import Settled
 from gearpair.ensembles.capture import found_in, number_attractors
 from gearpair.ensembles.datasets import (
-    attributes,
     dataset,
     oscillators_along,
+    section_variables,
     settled_columns,
     settled_variables,
     variables_of,
@@ -25,7 +25,7 @@ from gearpair.ensembles.datasets import (
 from gearpair.ensembles.stores import fill, opened_dataset
 from gearpair.motion.measures import measure_columns
 from gearpair.motion.same_orbit import SAME_ORBIT
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.settling import MANY, ONE, BatchOptions, SettleOptions, SettleSettings, settle_batch
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
 
@@ -42,11 +42,9 @@ def sweep(
     x: float = 1.0,
     v: float = 0.0,
     seeding: Literal["carry", "restart"] = "carry",
-    n_transient: int | None = None,
-    max_period: int = 64,
-    n_exponent: int = 2000,
     n_samples: int = 128,
     progress: bool = False,
+    **settling: Unpack[SettleOptions],
 ) -> xr.Dataset:
     """The settled motion at each value of one parameter.
 
@@ -62,12 +60,12 @@ def sweep(
     seeding : {"carry", "restart"}
         ``"carry"`` starts each value where the one before it ended, as an experiment does;
         ``"restart"`` starts each from (x, v), in parallel over the cores.
-    n_transient, max_period, n_exponent
-        As in `steady_state`.
     n_samples : int
         Section points kept per value; at least `max_period` are.
     progress : bool
         Show a progress bar on stderr, with the most mesh periods that all may take.
+    **settling
+        See `gearpair.motion.SettleOptions`.
 
     Returns
     -------
@@ -88,16 +86,12 @@ def sweep(
     """
     oscillators, checked = oscillators_along(osc, parameter, values)
     check_choice("seeding", seeding, ("carry", "restart"))
-    settings = SettleSettings(
-        n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=max(n_samples, max_period)
-    )
+    settings = ONE.having(settling, n_samples=n_samples).whole_cycles()
     starts = np.broadcast_to(check_start(x, v), (len(oscillators), 2))
     out = settle_batch(
         oscillators, starts, settings, chain=len(oscillators) if seeding == "carry" else 1, progress=progress
     )
-    variables = settled_variables(out, (parameter,), (len(checked),))
-    for i, name in enumerate(("x", "v")):
-        variables[name] = ((parameter, "sample"), out.points[:, :, i], attributes(name))
+    variables = settled_variables(out, (parameter,), (len(checked),)) | section_variables(parameter, out.points)
     return dataset(osc, variables, {parameter: checked}, seeding=seeding)
 
 
@@ -110,13 +104,10 @@ def parameter_map(
     measures: bool = False,
     starts: ArrayLike | None = None,
     carried: str | None = None,
-    n_transient: int | None = None,
-    max_period: int = 64,
-    n_exponent: int = 500,
-    most_work: int | None = None,
     store: str | Path | None = None,
     client: Client | None = None,
     progress: bool = False,
+    **settling: Unpack[BatchOptions],
 ) -> xr.Dataset:
     """The settled motion from one start at every point of a grid of parameters, in parallel over the cores.
 
@@ -134,15 +125,8 @@ def parameter_map(
     carried : str, optional
         One of the axes: add ``hysteresis``, whether the motion carried up along it, from (x, v) at its first value,
         differs from that carried down. With a `store` it must not be the first axis, along which blocks are cut.
-    n_transient, max_period, n_exponent
-        As in `steady_state`.
-    most_work : int, optional
-        Mesh periods that all points together may take at most; one that would need more than its share ends as
-        ``"exhausted"``.
-    store, client
+    store, client, progress, **settling
         As in `gearpair.basins`.
-    progress : bool
-        Show a progress bar on stderr, with the most mesh periods that all may take.
 
     Returns
     -------
@@ -168,10 +152,7 @@ def parameter_map(
     checked = {name: oscillators_along(osc, name, values)[1] for name, values in axes.items()}
     if carried is not None:
         check_choice("carried", carried, tuple(checked))
-    settings = SettleSettings(
-        n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1, measures=measures,
-        most_work=most_work,
-    )  # fmt: skip
+    settings = MANY.having(settling, BatchOptions, measures=measures)
     others = np.empty((0, 2)) if starts is None else np.array(starts, dtype=float)
     if others.ndim != 2 or others.shape[1] != 2 or not np.all(np.isfinite(others)):
         raise ValueError(f"starts must be pairs of finite numbers, got shape {others.shape}")

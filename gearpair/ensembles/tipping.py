@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +12,7 @@ from gearpair.ensembles.capture import found_in, known_attractors, number_attrac
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
 from gearpair.ensembles.planes import ATTRACTOR_COLUMNS
 from gearpair.ensembles.shares import random_starts
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.settling import MANY, SettleOptions, settle_batch
 from gearpair.oscillator import Oscillator
 
 if TYPE_CHECKING:
@@ -29,9 +29,7 @@ def continue_attractors(
     v_reach: tuple[float, float] = (-3.0, 3.0),
     seed: int = 0,
     nearest: float = 0.3,
-    n_transient: int | None = None,
-    max_period: int = 64,
-    n_exponent: int = 500,
+    **settling: Unpack[SettleOptions],
 ) -> xr.Dataset:
     """The attractors at each value of a parameter, matched from value to value, with their shares of random starts.
 
@@ -50,8 +48,8 @@ def continue_attractors(
         Of the random numbers.
     nearest : float
         Attractors of neighbouring values are one if their smallest and largest X differ by no more.
-    n_transient, max_period, n_exponent
-        As in `steady_state`.
+    **settling
+        See `gearpair.motion.SettleOptions`.
 
     Returns
     -------
@@ -82,7 +80,7 @@ def continue_attractors(
     oscillators, checked = oscillators_along(osc, parameter, values)
     nearest = check_number("nearest", nearest, above=0.0)
     starts = random_starts(check_count("n", n), x_reach, v_reach, seed)
-    settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
+    settings = MANY.having(settling)
     tables: list[dict[int, dict[str, float]]] = []
     places: dict[int, NDArray[np.float64]] = {}  # number -> the extremes it was last seen with
     points: dict[int, NDArray[np.float64]] = {}  # number at the value before -> a point of it

@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
-from gearpair.ensembles.datasets import attributes, oscillators_along
-from gearpair.methods.runge_kutta import runge_kutta_section, section_period
+from gearpair.ensembles.datasets import oscillators_along
+from gearpair.methods.runge_kutta import DiagramOptions, diagram_rules, runge_kutta_section, section_diagram
 from gearpair.methods.solvers import integrated_trajectory
 from gearpair.motion.trajectories import Impacts, stroboscopic_map, trajectory
 from gearpair.oscillator import Oscillator
@@ -189,9 +189,7 @@ def plain_sweep(
     *,
     x: float = 1.0,
     v: float = 0.0,
-    n_transient: int = 500,
-    n_samples: int = 128,
-    closeness: float = 0.01,
+    **options: Unpack[DiagramOptions],
 ) -> xr.Dataset:
     """The exact flow under the rules of `runge_kutta_sweep`: a fixed transient, and the period read off the points.
 
@@ -199,7 +197,7 @@ def plain_sweep(
 
     Parameters
     ----------
-    osc, parameter, values, x, v, n_transient, n_samples, closeness
+    osc, parameter, values, x, v, **options
         As in `runge_kutta_sweep`; values are carried.
 
     Returns
@@ -220,23 +218,13 @@ def plain_sweep(
     [2, 2]
     """
     oscillators, checked = oscillators_along(osc, parameter, values)
-    n_samples = check_count("n_samples", n_samples, at_least=2)
+    n_transient, n_samples, closeness = diagram_rules(options)
     points = np.empty((len(checked), n_samples, 2))
     for i, each in enumerate(oscillators):
         motion = trajectory(each, x, v, n_samples - 1, n_transient=n_transient, samples_per_period=1)
         points[i, :, 0], points[i, :, 1] = motion.x, motion.v
         x, v = float(motion.x[-1]), float(motion.v[-1])
-    import xarray as xr  # here, so that importing gearpair stays quick
-
-    return xr.Dataset(
-        {
-            "x": ((parameter, "sample"), points[:, :, 0], attributes("x")),
-            "v": ((parameter, "sample"), points[:, :, 1], attributes("v")),
-            "period": (parameter, [section_period(section, closeness) for section in points], attributes("period")),
-        },
-        {parameter: (parameter, checked, attributes(parameter))},
-        {"seeding": "carry", "oscillator": repr(osc)},
-    )
+    return section_diagram(osc, {parameter: checked}, points, closeness, seeding="carry")
 
 
 def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:

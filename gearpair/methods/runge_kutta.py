@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_choice, check_count, check_number
+from gearpair._checks import check_choice, check_count, check_number, check_options
 from gearpair._cores import on_all_cores
 from gearpair._flow.runge_kutta import COMPLETE, Steps, integrate_lanes
-from gearpair.ensembles.datasets import attributes, oscillators_along
+from gearpair.ensembles.datasets import attributes, dataset, oscillators_along, section_variables
 from gearpair.motion.settling import SettleSettings, lanes_of
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
@@ -78,6 +78,48 @@ def runge_kutta_section(
     return points[0]
 
 
+class DiagramOptions(TypedDict, total=False):
+    """How a diagram is drawn by a fixed transient and read: keyword arguments of what draws one.
+
+    Parameters
+    ----------
+    n_transient : int
+        Mesh periods discarded at each value, 500 when not given.
+    n_samples : int
+        Section points kept per value, 128 when not given.
+    closeness : float
+        Section points this close count as one when the period is read off the diagram, 0.01 when not given.
+    """
+
+    n_transient: int
+    n_samples: int
+    closeness: float
+
+
+def diagram_rules(options: DiagramOptions) -> tuple[int, int, float]:
+    """`DiagramOptions` with what was not given, in their order, checked."""
+    check_options(options, DiagramOptions.__annotations__)
+    return (
+        check_count("n_transient", options.get("n_transient", 500), at_least=0),
+        check_count("n_samples", options.get("n_samples", 128), at_least=2),
+        check_number("closeness", options.get("closeness", 0.01), above=0.0),
+    )
+
+
+def section_diagram(
+    osc: Oscillator,
+    along: Mapping[str, NDArray[np.float64]],
+    points: NDArray[np.float64],
+    closeness: float,
+    **facts: Any,
+) -> xr.Dataset:
+    """Section points (n, n_samples, 2) along a parameter, and the periods that a reader sees in them."""
+    (parameter,) = along
+    period = [section_period(section, closeness) for section in points]
+    variables = section_variables(parameter, points) | {"period": (parameter, period, attributes("period"))}
+    return dataset(osc, variables, along, **facts)
+
+
 def runge_kutta_sweep(
     osc: Oscillator,
     parameter: str,
@@ -86,11 +128,9 @@ def runge_kutta_sweep(
     x: float = 1.0,
     v: float = 0.0,
     seeding: Literal["carry", "restart"] = "carry",
-    n_transient: int = 500,
-    n_samples: int = 128,
     rtol: float = 1e-3,
     atol: float = 1e-6,
-    closeness: float = 0.01,
+    **options: Unpack[DiagramOptions],
 ) -> xr.Dataset:
     """`sweep` as RK45 draws it: a bifurcation diagram with the integrator's errors in it.
 
@@ -98,14 +138,10 @@ def runge_kutta_sweep(
     ----------
     osc, parameter, values, x, v, seeding
         As in `sweep`.
-    n_transient : int
-        Mesh periods discarded at each value.
-    n_samples : int
-        Section points kept per value.
     rtol, atol : float
         The integrator's tolerances; scipy's defaults.
-    closeness : float
-        Section points this close count as one when the period is read off the diagram.
+    **options
+        See `DiagramOptions`.
 
     Returns
     -------
@@ -126,27 +162,15 @@ def runge_kutta_sweep(
     """
     oscillators, checked = oscillators_along(osc, parameter, values)
     check_choice("seeding", seeding, ("carry", "restart"))
-    n_transient = check_count("n_transient", n_transient, at_least=0)
-    n_samples = check_count("n_samples", n_samples, at_least=2)
-    check_number("closeness", closeness, above=0.0)
+    n_transient, n_samples, closeness = diagram_rules(options)
     n_periods = n_transient + n_samples - 1
     points, status, calls = _sections(
         oscillators, x, v, n_periods, n_samples, _adaptive(rtol, atol, n_periods),
         chain=len(oscillators) if seeding == "carry" else 1,
     )  # fmt: skip
     points[status != COMPLETE] = np.nan
-    import xarray as xr  # here, so that importing gearpair stays quick
-
-    return xr.Dataset(
-        {
-            "x": ((parameter, "sample"), points[:, :, 0], attributes("x")),
-            "v": ((parameter, "sample"), points[:, :, 1], attributes("v")),
-            "period": (parameter, [section_period(section, closeness) for section in points], attributes("period")),
-            "calls": (parameter, calls, {"long_name": "calls of the right-hand side", "units": "1"}),
-        },
-        {parameter: (parameter, checked, attributes(parameter))},
-        {"seeding": seeding, "oscillator": repr(osc), "rtol": rtol, "atol": atol},
-    )
+    drawn = section_diagram(osc, {parameter: checked}, points, closeness, seeding=seeding, rtol=rtol, atol=atol)
+    return drawn.assign(calls=(parameter, calls, {"long_name": "calls of the right-hand side", "units": "1"}))
 
 
 def section_period(points: ArrayLike, closeness: float = 0.01) -> int:
