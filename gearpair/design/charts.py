@@ -13,7 +13,7 @@ from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import linear_response
 from gearpair.design.loads import MEASURES, measure_motion, same_motion
 from gearpair.drive import GearDrive
-from gearpair.motion.settling import CHART, settle_batch
+from gearpair.motion.settling import CHART, settle_batch, settle_both_ways
 from gearpair.motion.steady import SteadyState, describe
 from gearpair.oscillator import Oscillator
 
@@ -145,11 +145,11 @@ def carried_runs(
         Both in the order of the range, which all have in one length.
     """
     n = len(ranges[0])
-    lanes = [osc for each in ranges for osc in (*each, *each[::-1])]
+    lanes = [osc for each in ranges for osc in each]
     starts = np.array([(1.0 + max(osc.mean_force, 0.0) / osc.stiffness.mean, 0.0) for osc in lanes])
-    out = settle_batch(lanes, starts, CHART.having({"n_transient": n_transient}), chain=n, progress=progress)
-    states = [describe(osc, out, i) for i, osc in enumerate(lanes)]
-    return [(states[i : i + n], states[i + n : i + 2 * n][::-1]) for i in range(0, len(states), 2 * n)]
+    both = settle_both_ways(lanes, starts, CHART.having({"n_transient": n_transient}), chain=n, progress=progress)
+    up, down = ([describe(osc, out, i) for i, osc in enumerate(lanes)] for out in both)
+    return [(up[i : i + n], down[i : i + n]) for i in range(0, len(lanes), n)]
 
 
 def settled_starts(

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_choice
-from gearpair._flow.settle import Settled
 from gearpair.ensembles.capture import found_in, number_attractors
 from gearpair.ensembles.datasets import (
     dataset,
@@ -22,10 +21,18 @@ from gearpair.ensembles.datasets import (
     settled_variables,
     variables_of,
 )
-from gearpair.ensembles.stores import fill, opened_dataset
+from gearpair.ensembles.stores import by_store, fill, opened_dataset
 from gearpair.motion.measures import measure_columns
-from gearpair.motion.same_orbit import SAME_ORBIT
-from gearpair.motion.settling import MANY, ONE, BatchOptions, SettleOptions, SettleSettings, settle_batch
+from gearpair.motion.same_orbit import same_motions
+from gearpair.motion.settling import (
+    MANY,
+    ONE,
+    BatchOptions,
+    SettleOptions,
+    SettleSettings,
+    settle_batch,
+    settle_both_ways,
+)
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
 
@@ -157,13 +164,11 @@ def parameter_map(
     if others.ndim != 2 or others.shape[1] != 2 or not np.all(np.isfinite(others)):
         raise ValueError(f"starts must be pairs of finite numbers, got shape {others.shape}")
     grid = Grid(osc, checked, check_start(x, v), settings, others, carried)
-    first_axis = next(iter(checked))
-    if store is None:
-        if client is not None:
-            raise ValueError("a client needs a store to write to, on a path that all its workers see: give store, too")
+    if not by_store(store, client):
         shape = tuple(len(values) for values in checked.values())
         columns = grid.columns(0, shape[0], progress=progress)
         return dataset(osc, variables_of(columns, tuple(checked), shape), checked)
+    first_axis = next(iter(checked))
     if carried == first_axis:
         raise ValueError(f"carried must not be the first axis of a stored map, {first_axis!r}: name the axes otherwise")
     fill(grid, store, client=client, progress=progress)
@@ -172,7 +177,7 @@ def parameter_map(
 
 @dataclass(frozen=True)
 class Grid:
-    """A grid of parameters to be settled in any parts (a `gearpair.ensembles.stores.Job`)."""
+    """A grid of parameters to be settled in any parts (a `gearpair.ensembles.stores.MotionGrid`)."""
 
     osc: Oscillator
     axes: dict[str, NDArray[np.float64]]
@@ -199,7 +204,8 @@ class Grid:
         part = {name: values[first:last], **dict(rest)}
         points = list(product(*part.values()))
         oscillators = [self.osc.replace(**dict(zip(part, point, strict=True))) for point in points]
-        out = self._settle(oscillators, cores=cores, progress=progress)
+        starts, share = np.broadcast_to(self.start, (len(points), 2)), self._share
+        out = settle_batch(oscillators, starts, self.settings, share=share, cores=cores, progress=progress)
         columns = settled_columns(out)
         if self.settings.measures:
             columns |= measure_columns(out.measures, np.array([o.mean_force for o in oscillators]))
@@ -209,10 +215,9 @@ class Grid:
             columns["hysteresis"] = self._hysteresis(oscillators, tuple(map(len, part.values())), cores)
         return columns
 
-    def _settle(self, oscillators: list[Oscillator], *, chain: int = 1, **how: bool) -> Settled:
-        starts = np.broadcast_to(self.start, (len(oscillators), 2))
-        share = self.settings.share_of_work(int(np.prod([len(values) for values in self.axes.values()])))
-        return settle_batch(oscillators, starts, self.settings, chain=chain, share=share, **how)
+    @property
+    def _share(self) -> int:
+        return self.settings.share_of_work(int(np.prod([len(values) for values in self.axes.values()])))
 
     def _attractors(self, oscillators: list[Oscillator], cores: bool) -> NDArray[np.int64]:
         """How many attractors the other starts reach, for each oscillator."""
@@ -225,14 +230,7 @@ class Grid:
     def _hysteresis(self, oscillators: list[Oscillator], shape: tuple[int, ...], cores: bool) -> NDArray[np.bool_]:
         """Whether the motions carried up and down along the axis differ."""
         axis = list(self.axes).index(str(self.carried))
-        order = np.moveaxis(np.arange(len(oscillators)).reshape(shape), axis, -1)
-        length = shape[axis]
-        ways = []
-        for visited in (order, order[..., ::-1]):
-            lanes = visited.ravel()
-            out = settled_columns(self._settle([oscillators[i] for i in lanes], chain=max(length, 1), cores=cores))
-            ways.append({name: column[np.argsort(lanes)] for name, column in out.items()})
-        up, down = ways
-        apart = np.maximum(*(np.abs(up[name] - down[name]) for name in ("section_x", "section_v")))
-        differs = np.any([up[name] != down[name] for name in ("status", "period", "impact_state")], axis=0)
-        return np.asarray(differs | (apart > SAME_ORBIT))
+        order = np.moveaxis(np.arange(len(oscillators)).reshape(shape), axis, -1).ravel()
+        lanes, starts = [oscillators[i] for i in order], np.broadcast_to(self.start, (len(order), 2))
+        both = settle_both_ways(lanes, starts, self.settings, chain=shape[axis], share=self._share, cores=cores)
+        return ~same_motions(*map(settled_columns, both))[np.argsort(order)]

@@ -209,6 +209,17 @@ def settle_batch(
     return out
 
 
+def settle_both_ways(
+    oscillators: Sequence[Oscillator], starts: NDArray[np.float64], settings: SettleSettings, *, chain: int, **how: Any
+) -> tuple[Settled, Settled]:
+    """`settle_batch` of chains run up and of the same run down, each row where its oscillator stands among all."""
+    n = len(oscillators)
+    back = np.arange(n).reshape(-1, chain)[:, ::-1].ravel()
+    lanes = [*oscillators, *(oscillators[i] for i in back.tolist())]
+    out = settle_batch(lanes, np.concatenate([starts, starts[back]]), settings, chain=chain, **how)
+    return Settled._make(column[:n] for column in out), Settled._make(column[n:][back] for column in out)
+
+
 @contextmanager
 def stoppable(out: Settled, progress: bool, most: float) -> Iterator[Callable[[int], object]]:
     """A progress bar over a batch, moved by calling what is yielded; Ctrl-C keeps the rows that are done.
