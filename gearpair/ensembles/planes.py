@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._flow.settle import Known
-from gearpair.ensembles.capture import Found, found_in, known_attractors, number_attractors, seeds
+from gearpair.ensembles.capture import Found, found_in, known_attractors, number_attractors, scouts
 from gearpair.ensembles.datasets import (
     axis_attributes,
     settled_columns,
     variables_of,
     way_columns,
 )
-from gearpair.ensembles.stores import add_column, add_table, fill, opened_dataset, read_blocks
+from gearpair.ensembles.stores import add_column, add_table, by_store, fill, opened_dataset, read_blocks
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import Motion, motions_from
 from gearpair.motion.settling import MANY, BatchOptions, SettleSettings, settle_batch
@@ -101,7 +101,7 @@ def basins(
         if values.ndim != 1 or values.size == 0:
             raise ValueError(f"{name} must be a non-empty sequence of numbers, got shape {values.shape}")
     plane = Plane.of(osc, xs, vs, MANY.having(settling, BatchOptions))
-    if store is not None or client is not None:
+    if by_store(store, client):
         return _stored(plane, store, client, progress)
     columns = plane.columns(0, len(vs), progress=progress)
     found, places = found_in(columns)
@@ -112,7 +112,7 @@ def basins(
 
 @dataclass(frozen=True)
 class Plane:
-    """A plane of starts to be settled in any parts (a `gearpair.ensembles.stores.Job`)."""
+    """A plane of starts to be settled in any parts (a `gearpair.ensembles.stores.MotionGrid`)."""
 
     osc: Oscillator
     axes: dict[str, NDArray[np.float64]]
@@ -123,9 +123,9 @@ class Plane:
     def of(cls, osc: Oscillator, xs: NDArray[np.float64], vs: NDArray[np.float64], settings: SettleSettings) -> Plane:
         """With the attractors that some of the starts reach, which are the same however the plane is cut."""
         n = len(xs) * len(vs)
-        rows, columns = np.divmod(seeds(n), len(xs))
-        seed_starts = np.stack([xs[columns], vs[rows]], axis=1)
-        return cls(osc, {"v": vs, "x": xs}, settings, known_attractors(osc, seed_starts, settings))
+        rows, columns = np.divmod(scouts(n), len(xs))
+        scouting = np.stack([xs[columns], vs[rows]], axis=1)
+        return cls(osc, {"v": vs, "x": xs}, settings, known_attractors(osc, scouting, settings))
 
     @property
     def identity(self) -> dict[str, str]:
@@ -143,10 +143,8 @@ class Plane:
         return settled_columns(out) | way_columns(out)
 
 
-def _stored(plane: Plane, store: str | Path | None, client: Client | None, progress: bool) -> xr.Dataset:
+def _stored(plane: Plane, store: str | Path, client: Client | None, progress: bool) -> xr.Dataset:
     """`basins` by way of a store: the blocks, then one numbering for the attractors of all."""
-    if store is None:
-        raise ValueError("a client needs a store to write to, on a path that all its workers see: give store, too")
     group = fill(plane, store, client=client, progress=progress)
     if not group.attrs.get("complete"):
         names = ["status", "period", "section_x", "section_v", "x_min", "x_max", "exponent", "impact_state"]

@@ -207,7 +207,7 @@ def _settled_again(osc: Oscillator, result: xr.Dataset, i: int, motion: Motion) 
     return state if state.motion.kind == motion else None
 
 
-def follow(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> tuple[xr.Dataset, ...]:
+def carried_sweeps(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> tuple[xr.Dataset, ...]:
     """Carried sweeps from one settled motion towards both ends of the values, to see how far it lives.
 
     Parameters
@@ -228,7 +228,7 @@ def follow(state: SteadyState, parameter: str, values: ArrayLike, **settings: An
 
     Examples
     --------
-    >>> falling, rising = follow(steady_state(Oscillator()), "mesh_frequency", [0.65, 0.7, 0.75, 0.78])
+    >>> falling, rising = carried_sweeps(steady_state(Oscillator()), "mesh_frequency", [0.65, 0.7, 0.75, 0.78])
     >>> print(found_ranges(falling, rising)[-1].motion)
     period 4
     """
@@ -240,7 +240,7 @@ def follow(state: SteadyState, parameter: str, values: ArrayLike, **settings: An
 
 
 def range_of(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> MotionRange:
-    """How far one settled motion lives: the part of `follow` in which it keeps its period and its size.
+    """How far one settled motion lives: the part of `carried_sweeps` in which it keeps its period and its size.
 
     From one value to the next X_min and X_max may change by no more than a fifth of their distance; a larger step is a
     jump to another motion.
@@ -248,7 +248,7 @@ def range_of(state: SteadyState, parameter: str, values: ArrayLike, **settings: 
     Parameters
     ----------
     state, parameter, values, **settings
-        As for `follow`.
+        As for `carried_sweeps`.
 
     Returns
     -------
@@ -261,7 +261,7 @@ def range_of(state: SteadyState, parameter: str, values: ArrayLike, **settings: 
     """
     motion, here = state.motion.kind, state.oscillator.parameter(parameter)
     ends = [here, here]
-    for result in follow(state, parameter, values, **settings):
+    for result in carried_sweeps(state, parameter, values, **settings):
         visited = result[parameter].values
         sizes = np.stack([result.x_min.values, result.x_max.values])
         steps = np.abs(np.diff(sizes, axis=1, prepend=[[state.x_min], [state.x_max]])).max(axis=0)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
-from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, seeds
+from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, scouts
 from gearpair.ensembles.datasets import attributes, dataset, oscillators_along, settled_columns
 from gearpair.ensembles.planes import attractor_variables, basins
 from gearpair.motion.names import motions_of
@@ -66,7 +66,7 @@ def basin_stability(
     n = check_count("n", n)
     starts = random_starts(n, x_reach, v_reach, seed)
     settings = MANY.having(settling)
-    out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[seeds(n)], settings))
+    out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[scouts(n)], settings))
     found, _ = found_in(settled_columns(out))
     _, table = number_attractors([found])
     import xarray as xr  # here, so that importing gearpair stays quick

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count, check_number
-from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, seeds
+from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
 from gearpair.ensembles.planes import ATTRACTOR_COLUMNS
 from gearpair.ensembles.shares import random_starts
@@ -88,7 +88,7 @@ def continue_attractors(
     for each in oscillators:
         before = list(points)
         here = np.concatenate([starts, *(points[number][np.newaxis] for number in before)])
-        first = np.concatenate([seeds(n), np.arange(n, len(here))])
+        first = np.concatenate([scouts(n), np.arange(n, len(here))])
         out = settle_batch([each], here, settings, known=known_attractors(each, here[first], settings))
         columns = settled_columns(out)
         found, place = found_in(columns)
