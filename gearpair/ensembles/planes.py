@@ -54,7 +54,7 @@ def basins(
         Initial X'.
     store : path, optional
         Write the result to a Zarr store, block by block, and return it from there: memory then holds one block. The
-        same call goes on with a store that was not finished. Codes stand for words, which
+        same call goes on with a store not yet finished; one of another call is refused. Codes stand for words, which
         `gearpair.ensembles.decoded` puts back.
     client : distributed.Client, optional
         Compute the blocks on its workers, which must see the path of the store.
@@ -77,8 +77,6 @@ def basins(
 
     Raises
     ------
-    ValueError
-        For starts that are not finite or not one-dimensional, or a store that was made with other arguments.
     ImportError
         For a store without zarr, which the extra ``cluster`` brings.
 

@@ -120,11 +120,6 @@ def found_ranges(*sweeps: xr.Dataset, narrowest: float = 0.0) -> tuple[MotionRan
     tuple of MotionRange
         By rising lower end; ranges of different motions may overlap.
 
-    Raises
-    ------
-    ValueError
-        For sweeps over different parameters, or a negative `narrowest`.
-
     Examples
     --------
     >>> osc = Oscillator()

@@ -47,11 +47,6 @@ def basin_stability(
     xarray.Dataset
         Over ``attractor_number`` as of `basins`, with ``attractor_share_error`` besides.
 
-    Raises
-    ------
-    ValueError
-        For a count below 1 or a rectangle without area.
-
     Notes
     -----
     Menck, Heitzig, Marwan and Kurths (2013). Each start is a Bernoulli trial, so a share S has the standard error

@@ -97,11 +97,13 @@ def add_column(grid: MotionGrid, group: Group, name: str, dtype: Any) -> Any:
 def add_table(group: Group, variables: Mapping[str, Any]) -> None:
     """Small variables besides those of each motion; with them a store is complete."""
     for name, (dims, values, facts) in variables.items():
-        array = group.create_array(
-            name, shape=values.shape, dtype=values.dtype, dimension_names=dims, attributes=facts, overwrite=True
-        )
-        array[:] = values
+        _write(group, name, dims, values, facts)
     group.attrs["complete"] = True
+
+
+def _write(group: Group, name: str, dims: tuple[str, ...], values: NDArray[Any], facts: Mapping[str, Any]) -> None:
+    kind: dict[str, Any] = {"shape": values.shape, "dtype": values.dtype, "dimension_names": dims, "attributes": facts}
+    group.create_array(name, **kind, overwrite=True)[:] = values
 
 
 def read_blocks(grid: MotionGrid, group: Group, names: list[str]) -> Any:
@@ -196,11 +198,7 @@ def _lay_out(grid: MotionGrid, group: Group) -> None:
     for name, column in grid.columns(0, 0).items():
         _create(grid, group, name, column)
     for name, values in grid.axes.items():
-        array = group.create_array(
-            name, shape=values.shape, dtype=values.dtype, dimension_names=(name,), attributes=axis_attributes(name),
-            overwrite=True,
-        )  # fmt: skip
-        array[:] = values
+        _write(group, name, (name,), values, axis_attributes(name))
     blocks = len(_blocks(grid, group))
     group.create_array("done", shape=(blocks,), chunks=(1,), dtype=bool, dimension_names=("block",), overwrite=True)
 

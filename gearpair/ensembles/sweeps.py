@@ -80,11 +80,6 @@ def sweep(
         Dimensions ``(parameter, sample)``: ``x, v`` on the section, and per value ``status``, ``period``,
         ``impact_state``, ``x_min``, ``x_max``, ``exponent`` and ``exponent_error``.
 
-    Raises
-    ------
-    ValueError
-        For an unknown parameter, a value out of range, or no values.
-
     Examples
     --------
     >>> diagram = sweep(Oscillator(), "mesh_frequency", [1.65, 1.7], seeding="restart")
@@ -143,8 +138,6 @@ def parameter_map(
 
     Raises
     ------
-    ValueError
-        For no axes, an unknown parameter, a value out of range, or a store that was made with other arguments.
     ImportError
         For a store without zarr, which the extra ``cluster`` brings.
 

@@ -59,11 +59,6 @@ def continue_attractors(
         ``attractor_exponent``, and ``tips_to``: at the first value without the attractor, the number of the one that
         its motion goes over to (-2 where it escapes), -1 elsewhere. Attractors are numbered as they turn up.
 
-    Raises
-    ------
-    ValueError
-        For an unknown parameter, a value out of range, or a rectangle without area.
-
     Notes
     -----
     The field's "global continuation" (Datseris, Luiz Rossi and Wagemakers, 2023): the attractors of one value are the
@@ -81,11 +76,10 @@ def continue_attractors(
     nearest = check_number("nearest", nearest, above=0.0)
     starts = random_starts(check_count("n", n), x_reach, v_reach, seed)
     settings = MANY.having(settling)
-    tables: list[dict[int, dict[str, float]]] = []
+    entries: list[tuple[int, int, dict[str, float]]] = []  # row, number, what there is to tell
     places: dict[int, NDArray[np.float64]] = {}  # number -> the extremes it was last seen with
     points: dict[int, NDArray[np.float64]] = {}  # number at the value before -> a point of it
-    tips: list[dict[int, int]] = []
-    for each in oscillators:
+    for i, each in enumerate(oscillators):
         before = list(points)
         here = np.concatenate([starts, *(points[number][np.newaxis] for number in before)])
         first = np.concatenate([scouts(n), np.arange(n, len(here))])
@@ -97,25 +91,20 @@ def continue_attractors(
         extremes = np.column_stack([table["x_min"], table["x_max"]])
         given, tipped = _matched(dict(zip(before, labels[n:].tolist(), strict=True)), places, extremes, nearest)
         counts = np.bincount(labels[:n][labels[:n] >= 0], minlength=len(extremes))
-        tables.append(
-            {
-                number: {"share": counts[k] / n, **{name: table[name][k] for name in ATTRACTOR_COLUMNS}}
-                for k, number in enumerate(given)
-            }
-        )
-        tips.append(tipped)
+        for k, number in enumerate(given):
+            entries.append(
+                (i, number, {"share": counts[k] / n, **{name: table[name][k] for name in ATTRACTOR_COLUMNS}})
+            )
+        entries += [(i, number, {"tips_to": to}) for number, to in tipped.items()]
         points = {number: out.points[table["first"][k], 0] for k, number in enumerate(given)}
         places |= {number: extremes[k] for k, number in enumerate(given)}
     shape = len(checked), len(places)
     columns = {name: np.full(shape, np.nan) for name in ("share", "x_min", "x_max", "exponent")}
     columns |= {name: np.full(shape, -1) for name in ("status", "impact_state", "tips_to")}
     columns["period"] = np.zeros(shape, np.int64)
-    for i, (rows, tipped) in enumerate(zip(tables, tips, strict=True)):
-        for number, row in rows.items():
-            for name, value in row.items():
-                columns[name][i, number] = value
-        for number, to in tipped.items():
-            columns["tips_to"][i, number] = to
+    for i, number, row in entries:
+        for name, value in row.items():
+            columns[name][i, number] = value
     named = {name if name in ("share", "tips_to") else f"attractor_{name}": column for name, column in columns.items()}
     variables = variables_of(named, (parameter, "attractor"), shape)
     return dataset(osc, variables, {parameter: checked}).assign_coords(attractor=np.arange(shape[1]))

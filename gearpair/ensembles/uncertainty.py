@@ -44,11 +44,6 @@ def basin_entropy(labels: ArrayLike, box: int = 5) -> BasinEntropy:
     -------
     BasinEntropy
 
-    Raises
-    ------
-    ValueError
-        For labels that are not a plane, or a box larger than it.
-
     Notes
     -----
     Daza, Wagemakers, Georgeot, Guéry-Odelin and Sanjuán (2016): in each box the Gibbs entropy
@@ -110,11 +105,6 @@ def uncertainty_exponent(labels: ArrayLike, *, longest: int | None = None) -> Un
     Returns
     -------
     UncertaintyExponent
-
-    Raises
-    ------
-    ValueError
-        For labels that are not a plane, too few columns, or no boundary.
 
     Notes
     -----

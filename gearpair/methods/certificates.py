@@ -190,8 +190,6 @@ def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Se
 
     Raises
     ------
-    ValueError
-        For an argument out of range.
     RuntimeError
         Where an impact cannot be told from a near miss.
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
+from timeit import repeat
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
@@ -133,11 +134,6 @@ def work_precision(
         scipy's RK45, DOP853 and LSODA, the compiled RK45, and the exact flow. The exact flow's own error is what
         changes when its cells do (`split_levels`), its rounding. Compiled methods are timed over many periods.
 
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
-
     Examples
     --------
     >>> measured = work_precision(Oscillator(), 1.0, 0.0, n_starts=2, tolerances=[1e-6])
@@ -174,12 +170,7 @@ def work_precision(
 
 def _per_period(run: Callable[[], object]) -> float:
     """Seconds per mesh period of a compiled run over `TIMED_PERIODS`: the best of three, once it is compiled."""
-    times = []
-    for _ in range(4):
-        began = perf_counter()
-        run()
-        times.append(perf_counter() - began)
-    return min(times[1:]) / TIMED_PERIODS
+    return min(repeat(run, repeat=4, number=1)[1:]) / TIMED_PERIODS
 
 
 def plain_sweep(
@@ -207,8 +198,6 @@ def plain_sweep(
 
     Raises
     ------
-    ValueError
-        For an argument out of range.
     RuntimeError
         Where the motion escapes.
 
@@ -240,11 +229,6 @@ def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:
     Returns
     -------
     ndarray of bool, shape (n,)
-
-    Raises
-    ------
-    ValueError
-        Where the two are not of the same values.
 
     Examples
     --------

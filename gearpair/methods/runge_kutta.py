@@ -13,7 +13,7 @@ from gearpair._checks import check_choice, check_count, check_number, check_opti
 from gearpair._cores import on_all_cores
 from gearpair._flow.runge_kutta import COMPLETE, Steps, integrate_lanes
 from gearpair.ensembles.datasets import attributes, dataset, oscillators_along, section_variables
-from gearpair.motion.settling import SettleSettings, lanes_of
+from gearpair.motion.settling import ONE, lanes_of
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
 
@@ -54,8 +54,6 @@ def runge_kutta_section(
 
     Raises
     ------
-    ValueError
-        For an argument out of range.
     RuntimeError
         Where the integrator gives up.
 
@@ -72,7 +70,8 @@ def runge_kutta_section(
     n_kept = n_periods + 1 if n_kept is None else check_count("n_kept", n_kept)
     if n_kept > n_periods + 1:
         raise ValueError(f"n_kept must be at most n_periods + 1 = {n_periods + 1}, got {n_kept}")
-    points, status, _calls = _sections([osc], x, v, n_periods, n_kept, _adaptive(rtol, atol, n_periods), chain=1)
+    method = Integrator(rtol=rtol, atol=atol)
+    points, status, _calls = method.integrate([osc], x, v, n_periods - n_kept + 1, n_kept)
     if status[0] != COMPLETE:
         raise RuntimeError("RK45 gave up: the motion escapes to infinity, or rtol and atol are too small to reach")
     return points[0]
@@ -150,11 +149,6 @@ def runge_kutta_sweep(
         smallest that all kept points repeat with (0 when none up to half of them), and ``calls`` of the
         right-hand side.
 
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
-
     Examples
     --------
     >>> runge_kutta_sweep(Oscillator(), "mesh_frequency", [1.65, 1.7], rtol=1e-9, atol=1e-9).period.values.tolist()
@@ -163,11 +157,9 @@ def runge_kutta_sweep(
     oscillators, checked = oscillators_along(osc, parameter, values)
     check_choice("seeding", seeding, ("carry", "restart"))
     n_transient, n_samples, closeness = diagram_rules(options)
-    n_periods = n_transient + n_samples - 1
-    points, status, calls = _sections(
-        oscillators, x, v, n_periods, n_samples, _adaptive(rtol, atol, n_periods),
-        chain=len(oscillators) if seeding == "carry" else 1,
-    )  # fmt: skip
+    chain = len(oscillators) if seeding == "carry" else 1
+    method = Integrator(rtol=rtol, atol=atol)
+    points, status, calls = method.integrate(oscillators, x, v, n_transient, n_samples, chain)
     points[status != COMPLETE] = np.nan
     drawn = section_diagram(osc, {parameter: checked}, points, closeness, seeding=seeding, rtol=rtol, atol=atol)
     return drawn.assign(calls=(parameter, calls, {"long_name": "calls of the right-hand side", "units": "1"}))
@@ -209,12 +201,9 @@ class Integrator:
     steps : int, optional
         Steps a mesh period. Alone, those of the classical method of order four; beside `rtol`, the least number.
     rtol : float, optional
-        The relative tolerance of RK45; the absolute one is a thousandth of it.
-
-    Raises
-    ------
-    ValueError
-        For neither, or a value out of range.
+        The relative tolerance of RK45.
+    atol : float, optional
+        Its absolute tolerance; a thousandth of `rtol` when not given.
 
     Examples
     --------
@@ -224,19 +213,22 @@ class Integrator:
 
     steps: int | None = None
     rtol: float | None = None
+    atol: float | None = None
 
     def __post_init__(self) -> None:
         if self.steps is None and self.rtol is None:
             raise ValueError("an integrator needs steps or rtol, got neither")
         if self.steps is not None:
             check_count("steps", self.steps)
-        if self.rtol is not None:
-            check_number("rtol", self.rtol, above=0.0)
+        for name, tolerance in (("rtol", self.rtol), ("atol", self.atol)):
+            if tolerance is not None:
+                check_number(name, tolerance, above=0.0)
 
     def __str__(self) -> str:
         if self.rtol is None:
             return f"RK4, {self.steps} steps"
-        return f"RK45, rtol {self.rtol:g}" + (f", at least {self.steps} steps" if self.steps else "")
+        atol = "" if self.atol is None else f", atol {self.atol:g}"
+        return f"RK45, rtol {self.rtol:g}{atol}" + (f", at least {self.steps} steps" if self.steps else "")
 
     def sections(
         self, oscillators: Sequence[Oscillator], x: float, v: float, n_discarded: int, n_kept: int, *, chain: int = 1
@@ -265,36 +257,20 @@ class Integrator:
         >>> Integrator(steps=400).sections([Oscillator()], 1.0, 0.0, 500, 2)[0].round(3).tolist()
         [[0.349, -0.256], [0.926, -0.281]]
         """
-        n_periods = n_discarded + n_kept - 1
-        if self.rtol is None:
-            steps = Steps(0.0, 0.0, self.steps or 0, 0)
-        else:
-            steps = _adaptive(self.rtol, 1e-3 * self.rtol, n_periods, self.steps or 0)
-        points, status, _calls = _sections(oscillators, x, v, n_periods, n_kept, steps, chain=chain)
+        points, status, _calls = self.integrate(oscillators, x, v, n_discarded, n_kept, chain)
         points[status != COMPLETE] = np.nan
         return points
 
-
-def _sections(
-    oscillators: Sequence[Oscillator],
-    x: float,
-    v: float,
-    n_periods: int,
-    n_kept: int,
-    steps: Steps,
-    *,
-    chain: int,
-) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
-    """Section points (n, n_kept, 2), status (n,) and calls of the right-hand side (n,)."""
-    n = len(oscillators)
-    starts = np.broadcast_to(check_start(x, v), (n, 2))
-    lanes = lanes_of(oscillators, starts, SettleSettings(n_transient=0))
-    points, counts = np.empty((n, n_kept, 2)), np.zeros((n, 2), np.int64)
-    on_all_cores(integrate_lanes, (lanes, chain, n_periods, steps, points, counts), n, chain)
-    return points, counts[:, 0], counts[:, 1]
-
-
-def _adaptive(rtol: float, atol: float, n_periods: int, per_period: int = 0) -> Steps:
-    """The steps of RK45 over `n_periods`."""
-    rtol, atol = check_number("rtol", rtol, above=0.0), check_number("atol", atol, above=0.0)
-    return Steps(rtol, atol, per_period, MAX_STEPS_PER_PERIOD * n_periods)
+    def integrate(
+        self, oscillators: Sequence[Oscillator], x: float, v: float, n_discarded: int, n_kept: int, chain: int = 1
+    ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+        """As `sections`: points (n, n_kept, 2), how each integration ended (n,), calls of the right-hand side (n,)."""
+        n, n_periods = len(oscillators), n_discarded + n_kept - 1
+        steps = Steps(0.0, 0.0, self.steps or 0, 0)
+        if self.rtol is not None:
+            atol = 1e-3 * self.rtol if self.atol is None else self.atol
+            steps = Steps(float(self.rtol), float(atol), self.steps or 0, MAX_STEPS_PER_PERIOD * n_periods)
+        lanes = lanes_of(oscillators, np.broadcast_to(check_start(x, v), (n, 2)), ONE)
+        points, counts = np.empty((n, n_kept, 2)), np.zeros((n, 2), np.int64)
+        on_all_cores(integrate_lanes, (lanes, chain, n_periods, steps, points, counts), n, chain)
+        return points, counts[:, 0], counts[:, 1]

@@ -41,11 +41,6 @@ def impact_state(x_min: float, x_max: float) -> ImpactState:
         ``single_coast`` (x_min <= -1 and -1 < x_max <= 1, where nothing above applies).
         ``never_in_contact``: within the backlash throughout.
 
-    Raises
-    ------
-    ValueError
-        For extremes that are not finite or not in order.
-
     Notes
     -----
     The article, items I1 to I3, which leave the last two unnamed. With a positive mean force a

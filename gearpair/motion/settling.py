@@ -196,16 +196,10 @@ def settle_batch(
     limits = Limits(settings.max_period, settings.n_exponent, most)
     lanes = lanes_of(oscillators, starts, settings)
     arguments = (lanes, chain, limits, known or nothing_known(settings), out)
-    block = chain if chain > 1 else BLOCK_OF_ONE if len(oscillators) == 1 else BLOCK
+    single = chain == n  # one chain is carried along in parts, one after the other
+    block = BLOCK_OF_ONE if len(oscillators) == 1 else BLOCK if chain == 1 or single else chain
     with stoppable(out, progress, np.minimum(lanes.n_transient + settings.n_exponent, most).sum()) as done:
-        if chain == n or not cores:
-            step = BLOCK if chain == n else block
-            for first in range(0, n, step):
-                last = min(first + step, n)
-                settle_lanes(first, last, *arguments)
-                done(last - first)
-        else:
-            on_all_cores(settle_lanes, arguments, n, block, done)
+        on_all_cores(settle_lanes, arguments, n, block, done, cores and not single)
     return out
 
 

@@ -24,7 +24,7 @@ def lyapunov_exponents(
     x, v : float
         X and X' at the start of a mesh period.
     n_periods : int
-        Mesh periods to average over, at least 1.
+        Mesh periods to average over, at least 1, after as many in which the tangent turns to where it grows most.
     n_transient : int
         Mesh periods to run first and discard.
 
@@ -35,8 +35,6 @@ def lyapunov_exponents(
 
     Raises
     ------
-    ValueError
-        For an argument out of range.
     RuntimeError
         Where the motion escapes or the walk is capped.
 

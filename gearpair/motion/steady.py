@@ -85,11 +85,6 @@ def steady_state(
     -------
     SteadyState
 
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
-
     Notes
     -----
     A motion is *periodic* when it returns within 1e-8 of itself (relative to max(1, |X|, |X'|)) and Newton's

@@ -124,8 +124,6 @@ def stroboscopic_map(
 
     Raises
     ------
-    ValueError
-        For starts that are not finite or do not broadcast, or an `n` below 0.
     RuntimeError
         Where the walk is capped; the message says what to do.
 
@@ -185,8 +183,6 @@ def trajectory(
 
     Raises
     ------
-    ValueError
-        For an argument out of range.
     RuntimeError
         Where the motion escapes to infinity or the walk is capped.
 

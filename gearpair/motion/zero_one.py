@@ -28,11 +28,6 @@ def zero_one_test(values: ArrayLike, n_frequencies: int = 100) -> float:
     float
         From -1 to 1.
 
-    Raises
-    ------
-    ValueError
-        For fewer than 200 values, or values that are not finite.
-
     Notes
     -----
     Gottwald and Melbourne (2009), "On the implementation of the 0-1 test for chaos": the mean square displacement
