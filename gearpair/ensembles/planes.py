@@ -182,18 +182,9 @@ def attractor_variables(
 
 
 def attractor_motions(result: xr.Dataset, least_share: float = 0.0) -> list[Motion]:
-    """What each attractor of `gearpair.basins` is: its motion and, where periodic, its impact state.
+    """What each attractor of a `gearpair.basins` is: its motion and, where periodic, its impact state.
 
-    Parameters
-    ----------
-    result : xarray.Dataset
-        Of `gearpair.basins`.
-    least_share : float
-        Attractors that fewer of the starts reach are left out.
-
-    Returns
-    -------
-    list of Motion
+    Attractors that less than `least_share` of the starts reach are left out.
 
     Examples
     --------
@@ -210,20 +201,9 @@ def attractor_motions(result: xr.Dataset, least_share: float = 0.0) -> list[Moti
 
 
 def attractor_states(osc: Oscillator, result: xr.Dataset, least_share: float = 0.0) -> list[SteadyState]:
-    """The periodic attractors of `gearpair.basins`, each described in full.
+    """The periodic attractors of the `gearpair.basins` of `osc`, each described in full.
 
-    Parameters
-    ----------
-    osc : Oscillator
-        Whose basins they are.
-    result : xarray.Dataset
-        Of `gearpair.basins`.
-    least_share : float
-        Attractors that fewer of the starts reach are left out.
-
-    Returns
-    -------
-    list of SteadyState
+    Attractors that less than `least_share` of the starts reach are left out.
 
     Examples
     --------

@@ -90,14 +90,10 @@ def motion_shares(
 
     Parameters
     ----------
-    osc : Oscillator
-    parameter : str
-        One of ``osc.parameters``.
-    values : array_like of float, shape (n,)
-    x, v : array_like of float
+    osc, parameter, values
+        As in `gearpair.sweep`.
+    x, v, **settling
         The grid of starts, as for `gearpair.basins`.
-    **settling
-        As for `gearpair.basins`.
 
     Returns
     -------

@@ -35,21 +35,12 @@ def continue_attractors(
 
     Parameters
     ----------
-    osc : Oscillator
-    parameter : str
-        One of ``osc.parameters``.
-    values : array_like of float, shape (m,)
-        Visited in the order given.
-    n : int
-        Starts, drawn evenly from the rectangle, the same at every value.
-    x_reach, v_reach : (float, float)
-        Smallest and largest X and X' of the rectangle.
-    seed : int
-        Of the random numbers.
+    osc, parameter, values, **settling
+        As in `gearpair.sweep`.
+    n, x_reach, v_reach, seed
+        As in `basin_stability`; the starts are the same at every value.
     nearest : float
         Attractors of neighbouring values are one if their smallest and largest X differ by no more.
-    **settling
-        See `gearpair.motion.SettleOptions`.
 
     Returns
     -------

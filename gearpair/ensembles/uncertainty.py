@@ -40,10 +40,6 @@ def basin_entropy(labels: ArrayLike, box: int = 5) -> BasinEntropy:
     box : int
         Side of the boxes in starts; those that do not fit at the far edges are left out.
 
-    Returns
-    -------
-    BasinEntropy
-
     Notes
     -----
     Daza, Wagemakers, Georgeot, Guéry-Odelin and Sanjuán (2016): in each box the Gibbs entropy
@@ -101,10 +97,6 @@ def uncertainty_exponent(labels: ArrayLike, *, longest: int | None = None) -> Un
         Such as ``basins(...).attractor``.
     longest : int, optional
         The largest error of X_0, in steps of the grid; a sixteenth of the row when not given.
-
-    Returns
-    -------
-    UncertaintyExponent
 
     Notes
     -----

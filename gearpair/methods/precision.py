@@ -33,17 +33,9 @@ CUT = 0.38  # where `split_levels` divides each level
 
 @dataclass(frozen=True)
 class Precision:
-    """What one method did at one tolerance.
+    """What one `method` did at one tolerance `rtol`, nan for the exact flow, which has none.
 
-    Attributes
-    ----------
-    method : str
-    rtol : float
-        nan for the exact flow, which has none.
-    error : float
-        The largest error of X or X' after one mesh period, over all starts.
-    seconds : float
-        Measured time per mesh period.
+    `error` is the largest of X or X' after one mesh period, over all starts; `seconds` the measured time per period.
 
     Examples
     --------
@@ -62,14 +54,6 @@ def split_levels(osc: Oscillator) -> Oscillator:
 
     What differs between the two is rounding.
 
-    Parameters
-    ----------
-    osc : Oscillator
-
-    Returns
-    -------
-    Oscillator
-
     Examples
     --------
     >>> len(split_levels(Oscillator()).stiffness.levels)
@@ -84,15 +68,7 @@ def split_levels(osc: Oscillator) -> Oscillator:
 def impact_time_error(impacts: Impacts, reference: Impacts) -> float:
     """The largest time between an impact of `reference` and the nearest of `impacts` on the same side.
 
-    Parameters
-    ----------
-    impacts, reference : Impacts
-        Of two computations of one motion.
-
-    Returns
-    -------
-    float
-        0 where `reference` has none; inf where one has no counterpart.
+    0 where `reference` has none; inf where one has no counterpart.
 
     Examples
     --------
@@ -185,16 +161,7 @@ def plain_sweep(
     """The exact flow under the rules of `runge_kutta_sweep`: a fixed transient, and the period read off the points.
 
     What this misjudges is the fault of the rules; what `runge_kutta_sweep` misjudges beyond it, of the integrator.
-
-    Parameters
-    ----------
-    osc, parameter, values, x, v, **options
-        As in `runge_kutta_sweep`; values are carried.
-
-    Returns
-    -------
-    xarray.Dataset
-        Dimensions ``(parameter, sample)``: ``x``, ``v``, and per value ``period`` (0 where none is seen).
+    Parameters and result are as there, but for ``calls``; values are carried.
 
     Raises
     ------
@@ -217,18 +184,9 @@ def plain_sweep(
 
 
 def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:
-    """Where a diagram shows disorder though the motion is periodic.
+    """At which values a diagram shows disorder though the motion is periodic.
 
-    Parameters
-    ----------
-    exact : xarray.Dataset
-        Of `sweep`.
-    drawn : xarray.Dataset
-        Of `runge_kutta_sweep` or `plain_sweep` at the same values.
-
-    Returns
-    -------
-    ndarray of bool, shape (n,)
+    `exact` is of `sweep`; `drawn` of `runge_kutta_sweep` or `plain_sweep` at the same values.
 
     Examples
     --------
@@ -246,19 +204,9 @@ def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:
 
 
 def disorder_table(exact: xr.Dataset, drawn: Mapping[str, xr.Dataset]) -> Table:
-    """How often a diagram shows disorder where the motion is periodic, and a period where it is not.
+    """How often diagrams, by name, show disorder where the motion is periodic, and a period where it is not.
 
-    Parameters
-    ----------
-    exact : xarray.Dataset
-        Of `sweep`.
-    drawn : mapping of str to xarray.Dataset
-        Diagrams of the same values by name, of `runge_kutta_sweep` or `plain_sweep`.
-
-    Returns
-    -------
-    Table
-        Shares of the values, as `coarse_share` writes them.
+    Datasets as for `numerical_chaos`; shares of the values as `coarse_share` writes them.
 
     Examples
     --------
@@ -281,14 +229,7 @@ def disorder_table(exact: xr.Dataset, drawn: Mapping[str, xr.Dataset]) -> Table:
 def coarse_share(where: ArrayLike) -> str:
     """The share of true values, so coarse that rounding on another machine hardly changes it.
 
-    Parameters
-    ----------
-    where : array_like of bool
-
-    Returns
-    -------
-    str
-        To the nearest 10%; ``"under 10%"`` and ``"over 90%"`` near the ends, ``"all"`` if all are.
+    To the nearest 10%; ``"under 10%"`` and ``"over 90%"`` near the ends, ``"all"`` if all are.
 
     Examples
     --------

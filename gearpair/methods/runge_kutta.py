@@ -37,9 +37,8 @@ def runge_kutta_section(
 
     Parameters
     ----------
-    osc : Oscillator
-    x, v : float
-        X and X' at the start of a mesh period (dimensionless).
+    osc, x, v
+        As in `gearpair.trajectory`.
     n_periods : int
         Mesh periods of one uninterrupted integration.
     n_kept : int, optional
@@ -166,19 +165,9 @@ def runge_kutta_sweep(
 
 
 def section_period(points: ArrayLike, closeness: float = 0.01) -> int:
-    """The period that a reader sees in section points: the smallest that all of them repeat with.
+    """The period that a reader sees in successive section points (n, 2): the smallest that all of them repeat with.
 
-    Parameters
-    ----------
-    points : array_like of float, shape (n, 2)
-        Successive section points.
-    closeness : float
-        Points this close (in X and in X') count as one.
-
-    Returns
-    -------
-    int
-        In mesh periods; 0 when none up to half the number of points.
+    Points as close as `closeness` in X and in X' count as one. 0 when none up to half the number of points.
 
     Examples
     --------

@@ -65,18 +65,9 @@ MEASURES = tuple(field.name for field in fields(ImpactMeasures))
 
 
 def impact_measures(state: SteadyState, *, n_periods: int = 2000) -> ImpactMeasures:
-    """Blows, forces and displacements of a steady motion.
+    """Blows, forces and displacements of a steady motion that stayed bounded.
 
-    Parameters
-    ----------
-    state : SteadyState
-        Any that stayed bounded.
-    n_periods : int
-        Mesh periods to measure over where the motion is not periodic; a periodic one is measured over its cycle.
-
-    Returns
-    -------
-    ImpactMeasures
+    A periodic one is measured over its cycle, any other over `n_periods` mesh periods.
 
     Notes
     -----

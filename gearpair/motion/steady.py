@@ -81,10 +81,6 @@ def steady_state(
     **settling
         See `SettleOptions`.
 
-    Returns
-    -------
-    SteadyState
-
     Notes
     -----
     A motion is *periodic* when it returns within 1e-8 of itself (relative to max(1, |X|, |X'|)) and Newton's

@@ -177,10 +177,6 @@ def trajectory(
     samples_per_period : int
         Samples per mesh period.
 
-    Returns
-    -------
-    Trajectory
-
     Raises
     ------
     RuntimeError
