@@ -12,12 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair._flow.settle import Known
 from gearpair.ensembles.capture import Found, found_in, known_attractors, number_attractors, scouts
-from gearpair.ensembles.datasets import (
-    axis_attributes,
-    settled_columns,
-    variables_of,
-    way_columns,
-)
+from gearpair.ensembles.datasets import dataset, settled_columns, variables_of, way_columns
 from gearpair.ensembles.stores import add_column, add_table, by_store, fill, opened_dataset, read_blocks
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import Motion, motions_from
@@ -48,10 +43,8 @@ def basins(
     Parameters
     ----------
     osc : Oscillator
-    x : array_like of float, shape (n_x,)
-        Initial X.
-    v : array_like of float, shape (n_v,)
-        Initial X'.
+    x, v : array_like of float, shapes (n_x,) and (n_v,)
+        Initial X and X'.
     store : path, optional
         Write the result to a Zarr store, block by block, and return it from there: memory then holds one block. The
         same call goes on with a store not yet finished; one of another call is refused. Codes stand for words, which
@@ -105,7 +98,8 @@ def basins(
     found, places = found_in(columns)
     (numbers,), table = number_attractors([found])
     variables = variables_of(columns | {"attractor": numbers[places]}, ("v", "x"), (len(vs), len(xs)))
-    return plane_dataset(plane, variables, attractor_variables(table, len(places)))
+    variables |= attractor_variables(table, len(places))
+    return dataset(osc, variables, plane.axes).assign_coords(attractor_number=np.arange(len(table["counts"])))
 
 
 @dataclass(frozen=True)
@@ -158,15 +152,6 @@ def _stored(plane: Plane, store: str | Path, client: Client | None, progress: bo
             labels[first:last] = numbers[offsets[first]][places].reshape(last - first, n_x)
         add_table(group, attractor_variables(table, len(plane.axes["v"]) * n_x, coded=True))
     return opened_dataset(store)
-
-
-def plane_dataset(plane: Plane, variables: Mapping[str, Any], table: Mapping[str, Any]) -> xr.Dataset:
-    """Variables over a plane of starts, and over its attractors."""
-    import xarray as xr  # here, so that importing gearpair stays quick
-
-    coordinates: dict[str, Any] = {name: (name, values, axis_attributes(name)) for name, values in plane.axes.items()}
-    coordinates["attractor_number"] = np.arange(len(table["attractor_share"][1]))
-    return xr.Dataset({**variables, **table}, coordinates, {"oscillator": repr(plane.osc)})
 
 
 def attractor_variables(

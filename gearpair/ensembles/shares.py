@@ -64,10 +64,8 @@ def basin_stability(
     out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[scouts(n)], settings))
     found, _ = found_in(settled_columns(out))
     _, table = number_attractors([found])
-    import xarray as xr  # here, so that importing gearpair stays quick
-
-    numbers = {"attractor_number": np.arange(len(table["counts"]))}
-    return xr.Dataset(attractor_variables(table, n, errors=True), numbers, {"n": n, "oscillator": repr(osc)})
+    result = dataset(osc, attractor_variables(table, n, errors=True), {}, n=n)
+    return result.assign_coords(attractor_number=np.arange(len(table["counts"])))
 
 
 def random_starts(n: int, x_reach: tuple[float, float], v_reach: tuple[float, float], seed: int) -> NDArray[np.float64]:

@@ -74,6 +74,7 @@ class SettleOptions(TypedDict, total=False):
 
     Examples
     --------
+    >>> from gearpair.motion.settling import MANY, ONE
     >>> ONE.max_period, ONE.n_exponent, MANY.max_period, MANY.n_exponent
     (64, 2000, 64, 500)
     """
