@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from numbers import Integral, Real
 from typing import Any
 
@@ -42,6 +42,13 @@ def check_count(name: str, value: Any, *, at_least: int = 1) -> int:
     if isinstance(value, bool) or not isinstance(value, Integral) or value < at_least:
         raise ValueError(f"{name} must be a whole number of at least {at_least}, got {value!r}")
     return int(value)
+
+
+def check_options(options: Mapping[str, Any], allowed: Collection[str]) -> None:
+    """Raise a TypeError unless all `options` are among the `allowed`."""
+    for name, value in options.items():
+        if name not in allowed:
+            raise TypeError(f"unknown option {name}={value!r}: the options are {', '.join(allowed)}")
 
 
 def check_choice(name: str, value: Any, choices: Collection[str]) -> None:

@@ -13,7 +13,7 @@ from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import linear_response
 from gearpair.design.loads import MEASURES, measure_motion, same_motion
 from gearpair.drive import GearDrive
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.settling import CHART, settle_batch, settle_both_ways
 from gearpair.motion.steady import SteadyState, describe
 from gearpair.oscillator import Oscillator
 
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 RUNS = ("up", "down", "worst")
-MAX_PERIOD = 16
-N_EXPONENT = 300  # mesh periods: the verdict on chaos needs no more digits here
 
 
 def speed_chart(
@@ -136,11 +134,6 @@ def oscillators_at(drive: GearDrive, speeds: NDArray[np.float64]) -> list[Oscill
     return [osc.replace(mesh_frequency=float(speed * unit)) for speed in speeds]
 
 
-def settle_settings(n_transient: int | None) -> SettleSettings:
-    """How long every motion of a chart is waited for."""
-    return SettleSettings(n_transient=n_transient, max_period=MAX_PERIOD, n_exponent=N_EXPONENT, n_samples=MAX_PERIOD)
-
-
 def carried_runs(
     ranges: Sequence[list[Oscillator]], n_transient: int | None, *, progress: bool = False
 ) -> list[tuple[list[SteadyState], list[SteadyState]]]:
@@ -152,11 +145,11 @@ def carried_runs(
         Both in the order of the range, which all have in one length.
     """
     n = len(ranges[0])
-    lanes = [osc for each in ranges for osc in (*each, *each[::-1])]
+    lanes = [osc for each in ranges for osc in each]
     starts = np.array([(1.0 + max(osc.mean_force, 0.0) / osc.stiffness.mean, 0.0) for osc in lanes])
-    out = settle_batch(lanes, starts, settle_settings(n_transient), chain=n, progress=progress)
-    states = [describe(osc, out, i) for i, osc in enumerate(lanes)]
-    return [(states[i : i + n], states[i + n : i + 2 * n][::-1]) for i in range(0, len(states), 2 * n)]
+    both = settle_both_ways(lanes, starts, CHART.having({"n_transient": n_transient}), chain=n, progress=progress)
+    up, down = ([describe(osc, out, i) for i, osc in enumerate(lanes)] for out in both)
+    return [(up[i : i + n], down[i : i + n]) for i in range(0, len(lanes), n)]
 
 
 def settled_starts(
@@ -166,7 +159,7 @@ def settled_starts(
     if not n_starts:
         return [[] for _ in oscillators]
     starts = np.concatenate([spread_starts(osc, n_starts) for osc in oscillators])
-    out = settle_batch(oscillators, starts, settle_settings(n_transient), progress=progress)
+    out = settle_batch(oscillators, starts, CHART.having({"n_transient": n_transient}), progress=progress)
     return [
         [describe(osc, out, i) for i in range(k * n_starts, (k + 1) * n_starts)] for k, osc in enumerate(oscillators)
     ]

@@ -4,7 +4,7 @@ from gearpair.ensembles.datasets import symbol
 from gearpair.ensembles.planes import attractor_motions, attractor_states, basins
 from gearpair.ensembles.ranges import (
     MotionRange,
-    follow,
+    carried_sweeps,
     found_ranges,
     joined_ranges,
     motion_ranges,
@@ -27,9 +27,9 @@ __all__ = [
     "basin_entropy",
     "basin_stability",
     "basins",
+    "carried_sweeps",
     "continue_attractors",
     "decoded",
-    "follow",
     "found_ranges",
     "joined_ranges",
     "motion_ranges",

@@ -101,10 +101,10 @@ def axis_attributes(name: str) -> dict[str, str]:
 def dataset(
     osc: Oscillator, variables: Mapping[str, Any], axes: Mapping[str, NDArray[np.float64]], **settings: Any
 ) -> xr.Dataset:
-    """Variables over axes that are parameters, with what they belong to; `settings` become attributes."""
+    """Variables over axes, with what they belong to; `settings` become attributes."""
     import xarray as xr  # here, so that importing gearpair stays quick
 
-    coordinates = {name: (name, values, attributes(name)) for name, values in axes.items()}
+    coordinates = {name: (name, values, axis_attributes(name)) for name, values in axes.items()}
     return xr.Dataset(variables, coordinates, {**settings, "oscillator": repr(osc)})
 
 
@@ -155,6 +155,11 @@ def variables_of(
             facts["remedies"] = "; ".join(f"{status}: {status.remedy}" for status in Status)
         variables[name] = (dims, column.reshape(shape), facts)
     return variables
+
+
+def section_variables(parameter: str, points: NDArray[np.float64]) -> dict[str, Any]:
+    """Section points (n, n_samples, 2) along a parameter as xarray variables ``x`` and ``v``."""
+    return {name: ((parameter, "sample"), points[:, :, i], attributes(name)) for i, name in enumerate(("x", "v"))}
 
 
 def settled_variables(out: Settled, dims: tuple[str, ...], shape: tuple[int, ...]) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from gearpair.article.case.scoring import axis, published_kind, published_motion
 from gearpair.article.case.trials import MAX_PERIOD, by_levels
 from gearpair.article.readings import Hypothesis
 from gearpair.motion.names import Motion
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.settling import PERIODS, settle_batch
 
 STARTS = tuple((x, v) for x in (-1.0, 0.0, 1.0, 2.0) for v in (-0.6, 0.0, 0.6))
 
@@ -124,7 +124,7 @@ def reached(
     """
     edges = axis(parameter, n_values + 1)
     values = 0.5 * (edges[1:] + edges[:-1])
-    settings = SettleSettings(n_transient=n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD)
+    settings = PERIODS.having({"n_transient": n_discarded, "max_period": MAX_PERIOD})
     found = np.zeros((len(hypotheses), n_values, len(starts)), np.int64)
     for places in by_levels(hypotheses):
         oscillators = [osc for i in places for osc in hypotheses[i].along(parameter, values)]

@@ -14,7 +14,7 @@ from gearpair._checks import check_choice, check_count
 from gearpair.article.case.scoring import Score, axis, score
 from gearpair.article.readings import FORCINGS, Hypothesis
 from gearpair.methods.runge_kutta import Integrator, section_period
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.settling import PERIODS, settle_batch
 from gearpair.table import Table
 
 MAX_PERIOD = 12  # longer ones count as no period: nobody reads them off a diagram
@@ -148,9 +148,7 @@ def periods(
         oscillators = [osc for i in places for osc in hypotheses[i].along(parameter, values[order])]
         if integrator is None:
             starts = np.broadcast_to([protocol.x, protocol.v], (len(oscillators), 2))
-            settings = SettleSettings(
-                n_transient=protocol.n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD
-            )
+            settings = PERIODS.having({"n_transient": protocol.n_discarded, "max_period": MAX_PERIOD})
             drawn = settle_batch(oscillators, starts, settings, chain=chain).period
         else:
             n_discarded = check_count("n_discarded", protocol.n_discarded)
