@@ -121,6 +121,11 @@ class Oscillator:
         return 2.0 * np.pi / self.mesh_frequency
 
     @property
+    def all_harmonics(self) -> tuple[Harmonic, ...]:
+        """All harmonics of the transmission error, the first among them."""
+        return (Harmonic(1, self.error_amplitude, self.error_phase), *self.harmonics)
+
+    @property
     def parameters(self) -> tuple[str, ...]:
         """The names of the scalars that `replace`, sweeps and continuation can change."""
         return SCALARS + (WAVE_SCALARS if self.stiffness.rectangle is not None else ())
@@ -171,18 +176,17 @@ class Oscillator:
 
     def force(self, tau: ArrayLike) -> NDArray[np.float64]:
         """The right-hand side ``F_m + F_ah Omega^2 sin(Omega tau + phi)``, with harmonics, at `tau` (any shape)."""
-        angle = self.mesh_frequency * np.asarray(tau, dtype=float) + self.error_phase
-        total = self.mean_force + self.error_amplitude * self.mesh_frequency**2 * np.sin(angle)
-        for order, amplitude, phase in self.harmonics:
-            rate = order * self.mesh_frequency
-            total = total + amplitude * rate**2 * np.sin(rate * np.asarray(tau, dtype=float) + phase)
+        angle = self.mesh_frequency * np.asarray(tau, dtype=float)
+        total = self.mean_force + np.zeros_like(angle)
+        for order, amplitude, phase in self.all_harmonics:
+            total = total + amplitude * (order * self.mesh_frequency) ** 2 * np.sin(order * angle + phase)
         return total
 
     def error(self, tau: ArrayLike) -> NDArray[np.float64]:
         """The transmission error over half the backlash, ``F_ah sin(Omega tau + phi)`` with harmonics, at `tau`."""
         angle = self.mesh_frequency * np.asarray(tau, dtype=float)
-        total = self.error_amplitude * np.sin(angle + self.error_phase)
-        for order, amplitude, phase in self.harmonics:
+        total = np.zeros_like(angle)
+        for order, amplitude, phase in self.all_harmonics:
             total = total + amplitude * np.sin(order * angle + phase)
         return total
 

@@ -97,7 +97,7 @@ def iso_dynamic_factor(
     Examples
     --------
     >>> from gearpair import GearDrive, SpurPair
-    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, pinion_speed_rpm=3000.0, backlash_um=80.0,
+    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
     ...     transmission_error_um=5.0, damping_ratio=0.05)
     >>> iso = iso_dynamic_factor(drive, [1000.0, 8000.0, 20000.0], base_pitch_um=8.0, profile_um=8.0)
     >>> iso.k_v.round(2)

@@ -85,9 +85,8 @@ def idle_oscillator(
     Examples
     --------
     >>> drive = GearDrive(pinion_teeth=34, pinion_inertia_kg_m2=2e-3, gear_inertia_kg_m2=2e-3,
-    ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0,
-    ...     pinion_speed_rpm=2500.0, backlash_um=100.0, transmission_error_um=10.0,
-    ...     mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
+    ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0, backlash_um=100.0,
+    ...     transmission_error_um=10.0, mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
     >>> osc = idle_oscillator(drive, 800.0, order=2.0, pinion_swing_deg=0.3, drag_torque_nm=0.2)
     >>> round(osc.error_amplitude, 2), len(osc.stiffness.levels)
     (5.02, 1)
@@ -145,9 +144,8 @@ def idle_rattle(
     Examples
     --------
     >>> drive = GearDrive(pinion_teeth=34, pinion_inertia_kg_m2=2e-3, gear_inertia_kg_m2=2e-3,
-    ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0,
-    ...     pinion_speed_rpm=2500.0, backlash_um=100.0, transmission_error_um=10.0,
-    ...     mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
+    ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0, backlash_um=100.0,
+    ...     transmission_error_um=10.0, mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
     >>> found = idle_rattle(drive, [200.0, 800.0], order=2.0, pinion_swing_deg=0.3, drag_torque_nm=0.2)
     >>> found.rattle_ratio.round(2).tolist(), (found.impact_rate > 0.0).tolist()
     ([0.09, 1.47], [False, True])

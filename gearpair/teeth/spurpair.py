@@ -6,10 +6,12 @@ import dataclasses
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_choice, check_count, check_number
 
+Backlash = Literal["normal", "circumferential", "thickness"]
+BACKLASHES = ("normal", "circumferential", "thickness")
 _ROUNDING = 1e-12
 
 
@@ -236,6 +238,31 @@ class SpurPair:
         """
         reference = (self.pinion_teeth + self.gear_teeth) / 2
         return self.pinion_shift + self.gear_shift - (self.centre_distance_mm / self.module_mm - reference)
+
+    def normal_backlash_um(self, backlash_um: float, backlash: Backlash = "normal") -> float:
+        """The whole backlash along the line of action, j_bn, from any of three statements of it.
+
+        Parameters
+        ----------
+        backlash_um : float
+            As stated, in micrometres.
+        backlash : {"normal", "circumferential", "thickness"}
+            ``"normal"``: j_bn itself. ``"circumferential"``: j_wt, on the working pitch circles,
+            ``j_bn = j_wt cos(alpha_w)``. ``"thickness"``: what both gears' teeth are thinner than without backlash, on
+            the reference circles, together, ``j_bn = (A_s1 + A_s2) cos(alpha)``.
+
+        Notes
+        -----
+        ISO 21771:2007, its relations between normal, circumferential and thickness allowances for spur gears.
+
+        Examples
+        --------
+        >>> round(SpurPair().normal_backlash_um(100.0, "circumferential"), 2)
+        93.97
+        """
+        check_choice("backlash", backlash, BACKLASHES)
+        angle = {"circumferential": self.working_pressure_angle, "thickness": self.pressure_angle}.get(backlash, 0.0)
+        return check_number("backlash_um", backlash_um, above=0.0) * math.cos(angle)
 
     @cached_property
     def pinion(self) -> SpurGear:

@@ -16,7 +16,6 @@ UNITS = GearDrive(
     pinion_base_radius_mm=47.9,
     gear_base_radius_mm=62.0,
     pinion_torque_nm=120.0,
-    pinion_speed_rpm=2500.0,
     backlash_um=100.0,
     transmission_error_um=10.0,
     mean_stiffness_n_per_um=350.0,
