@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import fields
 from difflib import get_close_matches
 from functools import partial
+from math import prod
 from typing import Any
 
 from gearpair._checks import check_count, check_number
@@ -26,9 +27,13 @@ PAIR = tuple(field.name for field in fields(SpurPair))
 MESH = ("root", "foundation", "coupling")
 DRIVE = ("pinion_torque_nm", "transmission_error_um", "damping_ratio")
 ADDED = ("pinion_added_inertia_kg_m2", "gear_added_inertia_kg_m2")
-STANDS_FOR = {"lowest": "mesh_frequency", "highest": "mesh_frequency", "chaos_near": "mesh_frequency"}
+STANDS_FOR = {
+    **dict.fromkeys(("lowest", "highest", "chaos_near", "frequency_from", "frequency_to"), "mesh_frequency"),
+    "weak_damping": "damping_ratio",
+}
 STARTS = ("first_start", "second_start")
 SPEEDS = ("lowest_rpm", "highest_rpm")  # none: the chapter's choice
+RANGES = (("lowest", "highest"), ("lower", "upper"), ("frequency_from", "frequency_to"), SPEEDS)
 FEWEST = {
     "n_values": 2,
     "n_fine": 2,
@@ -38,6 +43,12 @@ FEWEST = {
     "n_transient": 0,
     "n_starts": 0,
 }  # of another n_... : 1
+# What a chapter computes in one go: as many motions as these numbers make together, where it has them.
+PARTS = (
+    *(("n_values",), ("n_fine",), ("n_reached",), ("n_x", "n_v"), ("n_frequency", "n_other")),
+    *(("n_shares", "n_starts"), ("n_speeds", "n_starts")),
+)
+MOST_MOTIONS = 10**7  # of each about a kilobyte is kept
 INJECTED = "# Parameters"  # how papermill begins the cell that it puts in
 
 
@@ -77,12 +88,17 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
     for name, scalar in {**STANDS_FOR, **stands_for}.items():
         if name in values:
             _check_as(name, partial(osc.replace, **{scalar: values[name]}))
-    for low, high in (("lowest", "highest"), SPEEDS):
+    for low, high in RANGES:
         first, last = values.get(low), values.get(high)
         if first is not None and last is not None and not first < last:
             raise ValueError(f"{low} must be below {high}, got {low} = {first} and {high} = {last}")
     for name, value in values.items():
         _check_alone(name, value)
+    for part in PARTS:
+        counts = {name: values[name] for name in part if isinstance(values.get(name), int)}
+        if prod(counts.values()) > MOST_MOTIONS:
+            names, got = " x ".join(counts), " x ".join(map(str, counts.values()))
+            raise ValueError(f"{names} must be at most {MOST_MOTIONS}, the motions that memory holds, got {got}")
 
 
 def _chosen(values: Mapping[str, Any], names: tuple[str, ...]) -> dict[str, Any]:
@@ -108,7 +124,7 @@ def _check_alone(name: str, value: Any) -> None:
         _check_as(name, lambda: check_start(*value))
     elif name in ("start_x", "start_v"):
         check_number(name, value)
-    elif name in ("x_reach", "v_reach", "pinion_torque_nm") or (name in SPEEDS and value is not None):
+    elif name in ("x_reach", "v_reach", "pinion_torque_nm", "weak_damping") or (name in SPEEDS and value is not None):
         check_number(name, value, above=0.0)
     elif name in ("narrowest", "base_pitch_um", "profile_um", *ADDED):
         check_number(name, value, at_least=0.0)

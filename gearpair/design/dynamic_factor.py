@@ -9,12 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_number
+from gearpair._equality import equal_by_value
 from gearpair.drive import GearDrive
 from gearpair.teeth import iso_stiffness
 
 MAIN_RESONANCE, SUPERCRITICAL = 1.15, 1.5  # upper end of the main resonance, lower end of the supercritical range
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class IsoDynamicFactor:
     """K_v of ISO 6336-1, method B, over the speed; arrays have shape (n,).

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_number
+from gearpair._equality import equal_by_value
 from gearpair.design.charts import carried_runs, check_speeds
 from gearpair.drive import GearDrive
 from gearpair.motion.measures import impact_measures
@@ -16,6 +17,7 @@ from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class IdleRattle:
     """An idle gear over the speed of its pinion, run up; arrays have shape (n,).

@@ -113,7 +113,7 @@ def _located(run: str, before: SteadyState, after: SteadyState) -> Jump | None:
     lost = int(np.argmin(stable))
     row = rows[max(lost - 1, 0) : lost + 1].min()  # a bifurcation belongs to the row before it, in the order walked
     met = zip(branch.bifurcations, branch.bifurcation_rows.tolist(), strict=True)
-    ends = sorted(met, key=lambda each: (each[0].kind == "grazing", abs(each[1] - row)))
+    ends = sorted(met, key=lambda each: (abs(each[1] - row), each[0].kind == "grazing"))
     if not ends:
         return middle
     end = ends[0][0]

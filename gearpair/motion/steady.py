@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gearpair._equality import equal_by_value
 from gearpair._flow.settle import Settled
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.names import Motion
@@ -16,6 +17,7 @@ from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class SteadyState:
     """A settled motion.

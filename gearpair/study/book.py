@@ -1,4 +1,4 @@
-"""From source notebooks to the rendered book, and to accepted outputs."""
+"""From source notebooks to the rendered book."""
 
 from __future__ import annotations
 
@@ -21,14 +21,13 @@ from gearpair.study.cache import Cache, library_digest, tree_digest, write_whole
 from gearpair.study.chapters import Chapter, read_chapter
 from gearpair.study.claims import claimed
 from gearpair.study.errors import StudyError
-from gearpair.study.execution import execute
 from gearpair.study.finishing import finish_site
-from gearpair.study.record import RECORD, versions
+from gearpair.study.record import versions
 from gearpair.study.side_by_side import execute_all
 from gearpair.study.variants import Variant, read_variants, variant_page, with_variants
 
 EXECUTED = "book/chapters/"
-NOT_SOURCE = ("_build", "tests", "benchmarks", "dist", "build", "chapters", "__pycache__", "*.egg-info", ".*")
+NOT_SOURCE = ("_build", "tests", "tools", "benchmarks", "dist", "build", "chapters", "__pycache__", "*.egg-info", ".*")
 RENDERS = ("sphinx", "jupyter-book", "myst-nb", "sphinx-book-theme", "sphinxcontrib-bibtex", "pydata-sphinx-theme")
 
 
@@ -237,55 +236,3 @@ def _put_in_place(new: Path, old: Path) -> None:
         os.replace(old, aside)
     os.replace(new, old)
     shutil.rmtree(aside, ignore_errors=True)
-
-
-def accept_outputs(book: Book, *, progress: bool = True) -> list[str]:
-    """Re-execute every source notebook with its defaults and store the new outputs.
-
-    All chapters run before any file is written. What differs from run to run or from machine to machine is not
-    stored: images, what was written to stderr, papermill's notes.
-
-    Returns
-    -------
-    list of str
-        The names of the chapters whose file changed.
-    """
-    scratch = book.root / "_build" / "accept"
-    scratch.mkdir(parents=True, exist_ok=True)
-    texts = {}
-    for chapter in book.chapters():
-        executed = execute(chapter, scratch / chapter.path.name, progress=progress)
-        texts[chapter.path] = nbformat.writes(stable_notebook(chapter.path, executed), version=4) + "\n"
-    changed = [path for path, text in texts.items() if path.read_text(encoding="utf-8") != text]
-    for path in changed:
-        scratch_file = scratch / path.name
-        scratch_file.write_text(texts[path], encoding="utf-8")
-        os.replace(scratch_file, path)
-    shutil.rmtree(scratch)
-    return [path.stem for path in changed]
-
-
-def stable_notebook(source: Path, executed: nbformat.NotebookNode) -> nbformat.NotebookNode:
-    """The notebook at `source` with the outputs of `executed`, less what is not stable."""
-    notebook = nbformat.read(source, as_version=4)
-    notebook.metadata = nbformat.from_dict(
-        {
-            "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
-            "language_info": {"name": "python"},
-        }
-    )
-    ran = [cell for cell in executed.cells if RECORD not in cell.metadata.get("tags", [])]
-    for cell, run in zip(notebook.cells, ran, strict=True):
-        if cell.cell_type == "code":
-            cell.execution_count = run.execution_count
-            cell.outputs = [stable for output in run.outputs if (stable := _stable_output(output)) is not None]
-    return notebook
-
-
-def _stable_output(output: nbformat.NotebookNode) -> nbformat.NotebookNode | None:
-    if output.get("name") == "stderr":
-        return None
-    if "data" in output:
-        output.data = {mime: data for mime, data in output.data.items() if not mime.startswith("image/")}
-        output.metadata = {key: value for key, value in output.metadata.items() if key == "scrapbook"}
-    return output

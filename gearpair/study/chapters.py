@@ -154,12 +154,13 @@ def _matches(annotation: str, value: Any) -> bool:
 
 @dataclass(frozen=True)
 class Chapter:
-    """A parameterised notebook and what it declares."""
+    """A parameterised notebook and what it declares; `seconds` is about how long it takes, 0 where that is short."""
 
     path: Path
     title: str
     parameters: tuple[Parameter, ...]
     stands_for: Mapping[str, str] | None = None
+    seconds: float = 0.0
 
     @property
     def name(self) -> str:
@@ -228,7 +229,8 @@ def read_chapter(path: Path) -> Chapter:
         raise StudyError(f"{path} must have exactly one cell tagged {TAG!r}; it has {len(tagged)}")
     parameters = tuple(read_parameters(tagged[0].source, str(path)))
     after = notebook.cells[notebook.cells.index(tagged[0]) + 1 :]
-    return Chapter(path, _title(notebook, path), parameters, _stands_for(after))
+    seconds = float(notebook.metadata.get("gearpair", {}).get("seconds", 0.0))
+    return Chapter(path, _title(notebook, path), parameters, _stands_for(after), seconds)
 
 
 def _stands_for(cells: list[nbformat.NotebookNode]) -> dict[str, str] | None:

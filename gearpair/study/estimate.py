@@ -10,11 +10,11 @@ import numpy as np
 
 from gearpair.motion.settling import transient_periods
 from gearpair.oscillator import Oscillator
+from gearpair.parameters import PARTS
 from gearpair.stiffness import StiffnessWave
 from gearpair.study.chapters import Chapter
 
 WORTH_TELLING = 3.0
-GRID, AXES = ("n_x", "n_v"), ("n_values", "n_fine", "n_reached", "n_speeds")
 SAMPLES = 9  # oscillators along an axis whose cost stands for all
 WAVE = ("contact_ratio", "a", "b", "reading")
 
@@ -37,8 +37,10 @@ def work_ratio(chapter: Chapter, values: Mapping[str, Any]) -> float:
     40
     """
     before, after = chapter.defaults, {**chapter.defaults, **values}
-    motions = max((after[name] / before[name] for name in AXES if name in before), default=1.0)
-    motions *= prod(after[name] / before[name] for name in GRID if name in before)
+    ratios = {name: after[name] / value for name, value in before.items() if name.startswith("n_") and value}
+    motions = max(
+        (prod(ratios[name] for name in part if name in ratios) for part in PARTS if {*part} & {*ratios}), default=1.0
+    )
     steps = before.get("phase_step", 1) / after.get("phase_step", 1)
     stands_for = chapter.stands_for or {}
     return motions * steps * _cost(after, stands_for) / _cost(before, stands_for)

@@ -28,6 +28,7 @@ MENDS: tuple[tuple[str, str, str], ...] = (
         "no landmark held it",
     ),
     (r'<summary aria-label="Toggle hidden content">', "<summary>", "the label hid the words that are seen"),
+    (r'(<button class="btn search-button-field[^>]*) aria-label="Search"', r"\1", "its words are seen: Search Ctrl+K"),
     (r'<summary>(?=<span class="toctree-toggle")', '<summary aria-label="Pages below this one">', "only an icon"),
     (
         r'<p class="(collapsed|expanded) admonition-title">([^<]*)</p>',

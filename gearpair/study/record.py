@@ -67,25 +67,33 @@ def recorded(
     """The executed `notebook` with how it was made at its end.
 
     Times of the cells, directories and whatever was written to stderr are taken out: readers can download it, and
-    what is left is the same at every run but for the record, which stays in the cell and in ``metadata.gearpair``.
+    what is left is the same at every run but for the record, which stays in the cell and in ``metadata.gearpair``;
+    there ``warned`` counts, from 0, the code cells that wrote to stderr.
     """
+    ran = [cell for cell in notebook.cells if cell.cell_type == "code" and not _injected(cell)]
+    warned = [number for number, cell in enumerate(ran) if any(out.get("name") == "stderr" for out in cell.outputs)]
     notebook.metadata = nbformat.from_dict(
         {
             "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
             "language_info": {"name": "python"},
-            "gearpair": {**made, "chapter": chapter.name, "parameters": dict(values)},
+            "gearpair": {**made, "chapter": chapter.name, "parameters": dict(values), "warned": warned},
         }
     )
     for cell in notebook.cells:
         for key in ("papermill", "execution"):
             cell.metadata.pop(key, None)
-        if "injected-parameters" in cell.metadata.get("tags", []):
+        if _injected(cell):
             cell.id = "injected-parameters"
         if cell.cell_type == "code":
             cell.outputs = [output for output in cell.outputs if output.get("name") != "stderr"]
     cell = new_markdown_cell(_record(chapter, values, made), id=RECORD, metadata={"tags": [RECORD]})
     notebook.cells = [each for each in notebook.cells if RECORD not in each.metadata.get("tags", [])] + [cell]
     return notebook
+
+
+def _injected(cell: nbformat.NotebookNode) -> bool:
+    """Whether papermill put the cell in, to set parameters."""
+    return "injected-parameters" in cell.metadata.get("tags", [])
 
 
 def _record(chapter: Chapter, values: Mapping[str, Any], made: Mapping[str, Any]) -> str:

@@ -58,11 +58,21 @@ def execute_all(
     jobs = [Job(page, cache.path(_chapter(page), _values(page), lock)) for page in pages]
     found = {job.kept: cache.read(job.kept) for job in jobs}
     missing = {job.kept: job for job in jobs if found[job.kept] is None}
-    _run([*missing.values()], scratch)
+    _run(longest_first([*missing.values()], cache), scratch)
     cache.prune(found)
     for kept in missing:
         found[kept] = cache.read(kept)
     return {job.page.name: (job.page, nbformat.from_dict(found[job.kept])) for job in jobs}
+
+
+def longest_first(jobs: list[Job], cache: Cache) -> list[Job]:
+    """The jobs by what their chapters took here the last time, else by what their notebooks tell; the longest first.
+
+    One that began last would keep a single core at work while the others wait.
+    """
+    chapters = {_chapter(job.page) for job in jobs}
+    seconds = {chapter.path: cache.seconds(chapter.name) or chapter.seconds for chapter in chapters}
+    return sorted(jobs, key=lambda job: seconds[_chapter(job.page).path], reverse=True)
 
 
 def _chapter(page: Chapter | Variant) -> Chapter:

@@ -89,6 +89,7 @@ def changes():
     return {h: case.bifurcations_of(h) for h in (article.PRINTED, article.SWAPPED)}
 
 
+@pytest.mark.slow
 def test_the_named_bifurcations_of_the_swapped_reading(changes):
     """F2, F4, F6 and D4: flips of periods 1, 2 and 2, and a fold of period 3; F4 and D4 within 1 % of the axis."""
     named = {

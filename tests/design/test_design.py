@@ -65,6 +65,7 @@ def test_one_pair_of_teeth_carries_at_most_the_mesh_force(chart):
     assert np.all(chart.tooth_force > 0.3 * chart.mesh_force)
 
 
+@pytest.mark.slow
 def test_jumps_are_folds_located_by_continuation(chart):
     """A finer chart finds the same speeds, which lie on neither's grid; there a multiplier is 1."""
     assert chart.jump_kind.values.tolist() == ["fold", "fold"]
@@ -179,6 +180,7 @@ def test_iso_light_load_lowers_the_resonance_range():
     assert iso.lower_limit == pytest.approx(0.5 + 0.35 * 0.5)
 
 
+@pytest.mark.slow
 def test_backlash_changes_nothing_while_one_flank_alone_is_struck(chart):
     """The equation of one flank is homogeneous in X - 1, forces and errors: the width of the gap is not in it."""
     wide = DRIVE.replace(backlash_um=160.0)
@@ -190,6 +192,7 @@ def test_backlash_changes_nothing_while_one_flank_alone_is_struck(chart):
 # Sensitivity and rattle
 
 
+@pytest.mark.slow
 def test_sensitivity_is_the_chart_of_the_changed_drive(chart):
     ranges = {"damping_ratio": (0.03, 0.1), "pinion_torque_nm": (60.0, 240.0), "addendum": (0.95, 1.05)}
     found = sensitivity(DRIVE, SPEEDS, ranges)

@@ -51,6 +51,10 @@ def largest_change(states):
         (0.5, 0.4, (-0.914, 0.32), dict(damping_ratio=0.02, error_amplitude=0.2, mean_force=0.2), "fold"),
         # A flip further along its branch, which folds twice, lies nearer to the first row that is unstable.
         (0.4, 0.6, (1.067, 0.017), dict(damping_ratio=0.08, error_amplitude=0.2, mean_force=0.05), "flip"),
+        # It grazes in the very step of the walk in which it doubles its period, and stays stable in between.
+        (0.6, 0.7, (1.09, 0.08), dict(damping_ratio=0.03, error_amplitude=0.2, mean_force=0.1), "flip"),
+        # It grazes first, then doubles its period, and the run lands near by on another motion of one period.
+        (0.6, 0.55, (-0.63235, -0.36807), dict(damping_ratio=0.02, error_amplitude=0.3, mean_force=0.2), "flip"),
         # Its branch turns round and ends at `here`, at both ends.
         (0.8, 0.6, (-0.32995, -0.004927), dict(damping_ratio=0.05, error_amplitude=0.2, mean_force=0.05), "flip"),
     ],

@@ -5,6 +5,7 @@ import pytest
 
 import gearpair as gp
 
+
 def test_a_motion_near_a_stable_orbit_that_ends_on_another_is_told_by_its_own():
     """It returns within 0.01 of a stable orbit after 8 mesh periods, and is 0.4 away from it 160 later."""
     osc = gp.Oscillator(damping_ratio=0.005, error_amplitude=0.1, mesh_frequency=0.902)

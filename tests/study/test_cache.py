@@ -77,6 +77,7 @@ def test_a_broken_entry_is_as_good_as_none(tmp_path):
     assert kept.read(tmp_path / "small-1.ipynb") is None
 
 
+@pytest.mark.slow
 def test_only_what_has_changed_is_made_again(small_book, library):
     """Three builds with a library of their own: the first, one with nothing changed, one with another library."""
     stiffness = library / "stiffness.py"

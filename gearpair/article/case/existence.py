@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from gearpair._equality import equal_by_value
 from gearpair.article import published
 from gearpair.article.case.scoring import axis, published_kind, published_motions
 from gearpair.article.case.trials import MAX_PERIOD, by_levels
@@ -19,6 +20,7 @@ from gearpair.motion.settling import SettleSettings, settle_batch
 STARTS = tuple((x, v) for x in (-1.0, 0.0, 1.0, 2.0) for v in (-0.6, 0.0, 0.6))
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class Reached:
     """The motions that a hypothesis has at each value of a parameter, whatever the protocol: reached from any start.
