@@ -70,11 +70,6 @@ class GearDrive:
     mesh, pinion_blank, gear_blank : MeshStiffness, GearBlank and GearBlank, optional
         What stiffness and inertias come from; set by `from_pair`.
 
-    Raises
-    ------
-    ValueError
-        Naming the parameter, its value and the allowed range.
-
     Notes
     -----
     The article, items M1 to M5.
@@ -160,11 +155,6 @@ class GearDrive:
         -------
         GearDrive
             With `mesh` and the blanks set, so that `replace` can draw it anew.
-
-        Raises
-        ------
-        ValueError
-            Naming the parameter, its value and the allowed range.
 
         Examples
         --------
@@ -292,11 +282,6 @@ class GearDrive:
     @property
     def mesh_frequency_rad_s(self) -> float:
         """omega_h = z1 times the pinion's angular speed.
-
-        Raises
-        ------
-        ValueError
-            For a drive without a speed.
         """
         if self.pinion_speed_rpm is None:
             raise ValueError("this drive has no speed: give pinion_speed_rpm, or take drive.at_speed(rpm)")
@@ -319,11 +304,6 @@ class GearDrive:
 
     def oscillator(self) -> Oscillator:
         """The dimensionless oscillator of this drive at its speed (the article, item M5).
-
-        Raises
-        ------
-        ValueError
-            For a drive without a speed.
         """
         return Oscillator(
             mean_force=self.mean_force_n / self.unit_force_n,
@@ -342,11 +322,6 @@ class GearDrive:
         """The drive of the same teeth, inertias, radii, k_m and b_h whose oscillator is `osc`.
 
         Torque, speed, transmission error, damping, phase and stiffness wave follow from `osc`.
-
-        Raises
-        ------
-        ValueError
-            Where `osc` asks for what no drive has.
         """
         unit_um = self.half_backlash_m * 1e6
         return self.replace(

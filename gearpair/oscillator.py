@@ -64,11 +64,6 @@ class Oscillator:
         What the transmission error has besides its first harmonic: orders n from 2 to 200, amplitudes
         F_n = e_n / b_h of at least 0, phases in radians, as `Harmonic`.
 
-    Raises
-    ------
-    ValueError
-        Naming the parameter, its value and the allowed range.
-
     Notes
     -----
     The article, items M5 and M6. Above a damping ratio of 100 the fastest time scale is so far
@@ -143,10 +138,6 @@ class Oscillator:
         **changes
             Any field of the class; also ``contact_ratio``, ``a`` and ``b`` where the stiffness is
             the article's rectangle, whose reading is kept.
-
-        Returns
-        -------
-        Oscillator
 
         Raises
         ------

@@ -71,10 +71,6 @@ def iso_dynamic_factor(
     application_factor : float
         K_A.
 
-    Returns
-    -------
-    IsoDynamicFactor
-
     Raises
     ------
     ValueError

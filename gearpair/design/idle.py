@@ -70,11 +70,6 @@ def idle_oscillator(
     Oscillator
         Its "mesh period" is the period of the swing.
 
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
-
     Notes
     -----
     The pinion's motion is given, so the gear's inertia alone is left, ``m = I2 / r_b2^2``, and the swing stands for the
@@ -126,15 +121,6 @@ def idle_rattle(
         Of the pinion, rising; run up.
     order, pinion_swing_deg, drag_torque_nm
         As in `idle_oscillator`; the drag above 0.
-
-    Returns
-    -------
-    IdleRattle
-
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
 
     Notes
     -----

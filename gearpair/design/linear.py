@@ -40,14 +40,6 @@ class LinearResponse:
 def linear_response(osc: Oscillator) -> LinearResponse:
     """The forced vibration about the static deflection, teeth always in contact and mean stiffness.
 
-    Parameters
-    ----------
-    osc : Oscillator
-
-    Returns
-    -------
-    LinearResponse
-
     Notes
     -----
     With ``Y = X - 1`` (X + 1 for a negative mean force) and the stiffness ``k = k_0 + k_1(tau)``,

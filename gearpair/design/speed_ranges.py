@@ -127,10 +127,6 @@ def speed_range_table(ranges: Iterable[SpeedRange]) -> Table:
     ranges : iterable of SpeedRange
         Of `gearpair.design.speeds_to_avoid`.
 
-    Returns
-    -------
-    Table
-
     Examples
     --------
     >>> from gearpair.design import SpeedRange

@@ -33,11 +33,6 @@ class GearBlank:
     added_inertia_kg_m2 : float
         Of what turns rigidly with the gear: shaft, coupling, motor.
 
-    Raises
-    ------
-    ValueError
-        Naming the parameter, its value and the allowed range.
-
     Examples
     --------
     >>> from gearpair.teeth.spurpair import SpurPair
@@ -87,10 +82,6 @@ class GearBlank:
 
 def teeth_moment_mm4(gear: SpurGear) -> float:
     """The polar moment of area of all teeth above the root circle, about the gear's axis, in mm^4.
-
-    Parameters
-    ----------
-    gear : SpurGear
 
     Notes
     -----

@@ -74,10 +74,6 @@ class FiniteElementBody:
 def finite_element_bodies() -> dict[str, FiniteElementBody]:
     """The stored bodies by name.
 
-    Returns
-    -------
-    dict of str to FiniteElementBody
-
     Examples
     --------
     >>> bodies = finite_element_bodies()

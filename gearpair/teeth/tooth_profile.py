@@ -36,11 +36,6 @@ class ToothProfile:
         circle (Liang, Zuo and Patel 2014). ``"base_circle"``: nothing below the base circle, where the
         tooth is clamped (the early papers, Yang and Lin 1987).
 
-    Raises
-    ------
-    ValueError
-        An unknown root.
-
     Notes
     -----
     Where the root circle lies outside the base circle (more than 41 teeth at 20 degrees), the last two

@@ -71,10 +71,6 @@ def shared_boundaries(reached: Reached) -> list[str]:
     reached : Reached
         The value nearest to a boundary tells.
 
-    Returns
-    -------
-    list of str
-
     Examples
     --------
     >>> from gearpair.article import PRINTED
@@ -106,10 +102,6 @@ def reached(
     starts : sequence of (x, v)
     n_discarded : int or None
         As in `Protocol`.
-
-    Returns
-    -------
-    list of Reached
 
     Notes
     -----

@@ -316,10 +316,6 @@ def judge_items(printed: Evidence, best: Evidence, items: Collection[str] | None
     items : collection of str, optional
         Only these.
 
-    Returns
-    -------
-    list of Verdict
-
     Examples
     --------
     >>> from gearpair.article import PRINTED, SWAPPED

@@ -172,10 +172,6 @@ def score(parameter: str, values: ArrayLike, periods: ArrayLike) -> Score:
     periods : array_like of int, shape (n,)
         The period at each value, 0 where the motion is not periodic.
 
-    Returns
-    -------
-    Score
-
     Raises
     ------
     ValueError

@@ -24,14 +24,6 @@ TOLERANCES = {"mesh_frequency": 0.003, "damping_ratio": 0.0002}
 def boundaries_met(trial: Trial) -> int:
     """How many of the published boundaries of both tables a diagram meets.
 
-    Parameters
-    ----------
-    trial : Trial
-
-    Returns
-    -------
-    int
-
     Examples
     --------
     >>> from gearpair.article import SWAPPED

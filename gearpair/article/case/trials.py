@@ -179,10 +179,6 @@ def run_trials(
     integrators : sequence of Integrator or None
         None is the exact flow.
 
-    Returns
-    -------
-    list of Trial
-
     Raises
     ------
     ValueError
@@ -269,10 +265,6 @@ def score_by_start(done: Iterable[Trial]) -> Table:
     ----------
     done : iterable of Trial
         Of `run_trials`.
-
-    Returns
-    -------
-    Table
 
     Examples
     --------
