@@ -10,22 +10,19 @@ from typing import Any
 
 import numpy as np
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_count, check_fields, check_number
 from gearpair.oscillator import Harmonic, Oscillator, check_harmonics
 from gearpair.stiffness import StiffnessWave
 from gearpair.teeth import GearBlank, MeshStiffness, SpurPair, mesh_stiffness
 from gearpair.teeth.meshing import Coupling
 
-POSITIVE = (
-    "pinion_inertia_kg_m2",
-    "gear_inertia_kg_m2",
-    "pinion_base_radius_mm",
-    "gear_base_radius_mm",
-    "backlash_um",
-    "mean_stiffness_n_per_um",
-)
-NOT_NEGATIVE = ("transmission_error_um", "damping_n_s_per_m")
-ANY = ("pinion_torque_nm", "error_phase_rad")
+LIMITS: dict[str, dict[str, float]] = {
+    **dict.fromkeys(("pinion_inertia_kg_m2", "gear_inertia_kg_m2"), {"above": 0.0}),
+    **dict.fromkeys(("pinion_base_radius_mm", "gear_base_radius_mm", "pinion_speed_rpm"), {"above": 0.0}),
+    **dict.fromkeys(("backlash_um", "mean_stiffness_n_per_um"), {"above": 0.0}),
+    **dict.fromkeys(("transmission_error_um", "damping_n_s_per_m"), {"at_least": 0.0}),
+    **dict.fromkeys(("pinion_torque_nm", "error_phase_rad"), {}),
+}
 SOLID = GearBlank()
 Error = float | Sequence[Harmonic | tuple[int, float, float]]
 
@@ -105,14 +102,8 @@ class GearDrive:
     gear_blank: GearBlank | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        checked: dict[str, float] = {"pinion_teeth": check_count("pinion_teeth", self.pinion_teeth)}
-        checked |= {name: check_number(name, getattr(self, name), above=0.0) for name in POSITIVE}
-        checked |= {name: check_number(name, getattr(self, name), at_least=0.0) for name in NOT_NEGATIVE}
-        checked |= {name: check_number(name, getattr(self, name)) for name in ANY}
-        if self.pinion_speed_rpm is not None:
-            checked["pinion_speed_rpm"] = check_number("pinion_speed_rpm", self.pinion_speed_rpm, above=0.0)
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
+        object.__setattr__(self, "pinion_teeth", check_count("pinion_teeth", self.pinion_teeth))
+        check_fields(self, **LIMITS)
         if not isinstance(self.stiffness, StiffnessWave):
             raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
         object.__setattr__(self, "error_harmonics", check_harmonics("error_harmonics", self.error_harmonics))
@@ -281,8 +272,7 @@ class GearDrive:
 
     @property
     def mesh_frequency_rad_s(self) -> float:
-        """omega_h = z1 times the pinion's angular speed.
-        """
+        """omega_h = z1 times the pinion's angular speed."""
         if self.pinion_speed_rpm is None:
             raise ValueError("this drive has no speed: give pinion_speed_rpm, or take drive.at_speed(rpm)")
         return self.pinion_teeth * self.pinion_speed_rpm * 2.0 * np.pi / 60.0
@@ -303,8 +293,7 @@ class GearDrive:
         return self.pinion_torque_nm / (self.pinion_base_radius_mm * 1e-3)
 
     def oscillator(self) -> Oscillator:
-        """The dimensionless oscillator of this drive at its speed (the article, item M5).
-        """
+        """The dimensionless oscillator of this drive at its speed (the article, item M5)."""
         return Oscillator(
             mean_force=self.mean_force_n / self.unit_force_n,
             error_amplitude=self.transmission_error_um * 1e-6 / self.half_backlash_m,

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_count, check_fields, check_number
 from gearpair._flow.cells import Cells, Parameters, build_cells
 from gearpair.stiffness import StiffnessWave
 
@@ -87,17 +87,14 @@ class Oscillator:
     harmonics: tuple[Harmonic, ...] = ()
 
     def __post_init__(self) -> None:
-        checked = {
-            "mean_force": check_number("mean_force", self.mean_force),
-            "error_amplitude": check_number("error_amplitude", self.error_amplitude, at_least=0.0),
-            "error_phase": check_number("error_phase", self.error_phase),
-            "damping_ratio": check_number(
-                "damping_ratio", self.damping_ratio, at_least=0.0, at_most=LARGEST_DAMPING_RATIO
-            ),
-            "mesh_frequency": check_number("mesh_frequency", self.mesh_frequency, above=0.0),
-        }
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
+        check_fields(
+            self,
+            mean_force={},
+            error_amplitude={"at_least": 0.0},
+            error_phase={},
+            damping_ratio={"at_least": 0.0, "at_most": LARGEST_DAMPING_RATIO},
+            mesh_frequency={"above": 0.0},
+        )
         if not isinstance(self.stiffness, StiffnessWave):
             raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
         object.__setattr__(self, "harmonics", check_harmonics("harmonics", self.harmonics))

@@ -293,7 +293,7 @@ class _Model:
         reach = math.floor(self.pair.contact_ratio) + 1
         return {
             who: ring_compliance(
-                tooth.clamp_radius * tooth.gear.module_mm / tooth.gear.bore_mm,
+                tooth.radius_ratio,
                 tooth.clamp_half_angle,
                 2 * math.pi / tooth.gear.teeth * np.arange(reach),
                 self.pair.poisson_ratio,
@@ -322,9 +322,8 @@ class _Model:
 
     def outside_fit(self) -> tuple[str, ...]:
         return tuple(
-            f"the {who}'s theta_f = {tooth.clamp_half_angle:.3f} and h = "
-            f"{tooth.clamp_radius * tooth.gear.module_mm / tooth.gear.bore_mm:.2f} are outside the range that the "
-            "foundation formula was fitted for: theta_f from 0.01 to 0.12, h from 1.4 to 7"
+            f"the {who}'s theta_f = {tooth.clamp_half_angle:.3f} and h = {tooth.radius_ratio:.2f} are outside the "
+            "range that the foundation formula was fitted for: theta_f from 0.01 to 0.12, h from 1.4 to 7"
             for who, tooth in self.teeth.items()
             if not in_foundation_range(tooth)
         )

@@ -8,11 +8,19 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
 
-from gearpair._checks import check_choice, check_count, check_number
+from gearpair._checks import check_choice, check_count, check_fields, check_number
 
 Backlash = Literal["normal", "circumferential", "thickness"]
 BACKLASHES = ("normal", "circumferential", "thickness")
 _ROUNDING = 1e-12
+LIMITS: dict[str, dict[str, float]] = {
+    **dict.fromkeys(("module_mm", "face_width_mm", "addendum", "clearance", "bore_ratio"), {"above": 0.0}),
+    "youngs_modulus_gpa": {"above": 0.0},
+    "pressure_angle_deg": {"above": 0.0, "below": 90.0},
+    "poisson_ratio": {"above": 0.0, "below": 0.5},
+    **dict.fromkeys(("tip_shortening", "tip_radius"), {"at_least": 0.0}),
+    **dict.fromkeys(("pinion_shift", "gear_shift"), {}),
+}
 
 
 def _involute(angle: float) -> float:
@@ -157,23 +165,9 @@ class SpurPair:
     tip_shortening: float = 0.0
 
     def __post_init__(self) -> None:
-        numbers: dict[str, float | None] = {
-            name: check_number(name, getattr(self, name), above=0.0)
-            for name in ("module_mm", "face_width_mm", "addendum", "clearance", "bore_ratio", "youngs_modulus_gpa")
-        }
         for name in ("pinion_teeth", "gear_teeth"):
-            numbers[name] = check_count(name, getattr(self, name), at_least=3)
-        for name in ("pinion_shift", "gear_shift"):
-            numbers[name] = check_number(name, getattr(self, name))
-        numbers["pressure_angle_deg"] = check_number(
-            "pressure_angle_deg", self.pressure_angle_deg, above=0.0, below=90.0
-        )
-        numbers["poisson_ratio"] = check_number("poisson_ratio", self.poisson_ratio, above=0.0, below=0.5)
-        numbers["tip_shortening"] = check_number("tip_shortening", self.tip_shortening, at_least=0.0)
-        if self.tip_radius is not None:
-            numbers["tip_radius"] = check_number("tip_radius", self.tip_radius, at_least=0.0)
-        for name, value in numbers.items():
-            object.__setattr__(self, name, value)
+            object.__setattr__(self, name, check_count(name, getattr(self, name), at_least=3))
+        check_fields(self, **LIMITS)
         self._check_rack()
         for who, gear in (("pinion", self.pinion), ("gear", self.gear)):
             self._check_gear(who, gear)

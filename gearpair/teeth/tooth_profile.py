@@ -73,6 +73,11 @@ class ToothProfile:
         return self.root_radius
 
     @property
+    def radius_ratio(self) -> float:
+        """h: that circle over the bore."""
+        return self.clamp_radius * self.gear.module_mm / self.gear.bore_mm
+
+    @property
     def clamp_half_angle(self) -> float:
         """theta_f: half the angle the tooth takes on that circle, in radians."""
         if self.root == "trochoid":

@@ -35,7 +35,7 @@ from gearpair.article.case.trials import (
     score_by_start,
 )
 from gearpair.article.case.two_rotors import two_rotor_difference
-from gearpair.article.case.verdicts import Verdict, count_verdicts, counter_evidence, judge, verdict_table
+from gearpair.article.case.verdicts import Verdict, count_verdicts, counter_evidence, verdict_table, verdict_word
 
 __all__ = [
     "Evidence",
@@ -60,7 +60,6 @@ __all__ = [
     "counter_evidence",
     "distance_from_bifurcations",
     "drawn_boundary",
-    "judge",
     "judge_items",
     "most_met_by_chance",
     "named_bifurcation",
@@ -79,4 +78,5 @@ __all__ = [
     "shared_boundaries",
     "two_rotor_difference",
     "verdict_table",
+    "verdict_word",
 ]

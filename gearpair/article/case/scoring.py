@@ -161,6 +161,13 @@ def published_motions(parameter: str) -> tuple[Motion, ...]:
     return tuple(r.motion for r in published.ranges(parameter))
 
 
+def published_at(parameter: str, values: NDArray[np.float64]) -> list[Motion]:
+    """The published motion at each value; a boundary belongs to the range above it."""
+    ranges = published.ranges(parameter)
+    ends = [r.upper for r in ranges[:-1]]
+    return [ranges[k].motion for k in np.searchsorted(ends, values, side="right")]
+
+
 def score(parameter: str, values: ArrayLike, periods: ArrayLike) -> Score:
     """Compare a computed table of motions with the published one.
 
@@ -197,10 +204,7 @@ def score(parameter: str, values: ArrayLike, periods: ArrayLike) -> Score:
         raise ValueError(f"values of {parameter} must ascend, one per period, at least 2; got shape {grid.shape}")
     motions = [published_kind(int(period), parameter) for period in found]
     expected = published_motions(parameter)
-    ends = np.array([r.upper for r in ranges[:-1]])
-    agreement = float(
-        np.mean([motions[i] == expected[k] for i, k in enumerate(np.searchsorted(ends, grid, side="right"))])
-    )
+    agreement = float(np.mean([a == b for a, b in zip(motions, published_at(parameter, grid), strict=True)]))
     width = ranges[-1].upper - ranges[0].lower
     runs = _runs(grid, motions, NARROW * width)
     changes = tuple(Change(left[0], right[0], right[1]) for left, right in pairwise(runs))
