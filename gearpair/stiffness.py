@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair._checks import check_choice, check_count, check_number
 
 Reading = Literal["printed", "swapped"]
-READINGS = ("printed", "swapped")
+READINGS = get_args(Reading)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.polynomial import Legendre
@@ -22,7 +22,7 @@ from gearpair.teeth.tooth_profile import ROOTS, Root, ToothProfile
 
 Array = NDArray[np.float64]
 Coupling = Literal["summed", "ring"]
-COUPLINGS = ("summed", "ring")
+COUPLINGS = get_args(Coupling)
 _NODES, _WEIGHTS = leggauss(24)
 
 

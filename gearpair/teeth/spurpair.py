@@ -6,12 +6,12 @@ import dataclasses
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from gearpair._checks import check_choice, check_count, check_fields, check_number
 
 Backlash = Literal["normal", "circumferential", "thickness"]
-BACKLASHES = ("normal", "circumferential", "thickness")
+BACKLASHES = get_args(Backlash)
 _ROUNDING = 1e-12
 LIMITS: dict[str, dict[str, float]] = {
     **dict.fromkeys(("module_mm", "face_width_mm", "addendum", "clearance", "bore_ratio"), {"above": 0.0}),

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,7 +19,7 @@ from gearpair.teeth.spurpair import SpurGear
 
 Array = NDArray[np.float64]
 Root = Literal["trochoid", "straight", "base_circle"]
-ROOTS = ("trochoid", "straight", "base_circle")
+ROOTS = get_args(Root)
 
 
 @dataclass(frozen=True)

@@ -98,7 +98,6 @@ def distance_from_bifurcations(
     Parameters
     ----------
     parameter : {"mesh_frequency", "damping_ratio"}
-    bifurcations : iterable of Bifurcation
     n : int
         Random tables.
 
@@ -148,7 +147,6 @@ def bifurcations_of(hypothesis: Hypothesis, max_period: int = 3) -> list[Bifurca
 
     Parameters
     ----------
-    hypothesis : Hypothesis
     max_period : int
         The longest period followed.
 

@@ -28,8 +28,6 @@ class Reached:
 
     Attributes
     ----------
-    hypothesis : Hypothesis
-    parameter : str
     values : ndarray of float, shape (n,)
     motions : tuple of frozenset of Motion
         One set per value, in the article's words as `published_kind` gives them.
@@ -95,10 +93,7 @@ def reached(
 
     Parameters
     ----------
-    hypotheses : sequence of Hypothesis
     parameter : {"mesh_frequency", "damping_ratio"}
-    n_values : int
-    starts : sequence of (x, v)
     n_discarded : int or None
         As in `Protocol`.
 

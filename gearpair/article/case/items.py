@@ -44,7 +44,6 @@ class Evidence:
 
     Parameters
     ----------
-    hypothesis : Hypothesis
     reached : sequence of Reached
         The motions that it has along each published axis.
     changes : sequence of Bifurcation

@@ -33,17 +33,7 @@ def axis(parameter: str, n_values: int) -> NDArray[np.float64]:
 def random_tables(parameter: str, n: int, *, seed: int = 0, n_values: int = 101) -> list[Score]:
     """Scores of tables with the published motions in their order and boundaries at random.
 
-    Parameters
-    ----------
-    parameter : {"mesh_frequency", "damping_ratio"}
-    n : int
-    seed : int
-    n_values : int
-
-    Returns
-    -------
-    list of Score
-        What a table scores by chance that already knows the motions and their order.
+    They are what a table scores by chance that already knows the motions and their order.
 
     Examples
     --------
@@ -76,7 +66,6 @@ class Match:
 
     Attributes
     ----------
-    boundary : published.Boundary
     found : float or None
         None where the table has no such boundary.
     """
@@ -96,7 +85,6 @@ class Score:
 
     Attributes
     ----------
-    parameter : str
     agreement : float
         Fraction of the axis on which the motion is the published one.
     closeness : float

@@ -46,10 +46,8 @@ def most_met_by_chance(trials: Sequence[Trial], n: int = 1000, *, seed: int = 0)
 
     Parameters
     ----------
-    trials : sequence of Trial
     n : int
         Random tables.
-    seed : int
 
     Returns
     -------

@@ -12,12 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_choice, check_count
 from gearpair.article.case.scoring import Score, axis, score
-from gearpair.article.readings import FORCINGS, Hypothesis
+from gearpair.article.readings import CHOICES, FORCINGS, Hypothesis
 from gearpair.methods.runge_kutta import Integrator, section_period
 from gearpair.motion.settling import SettleSettings, settle_batch
 from gearpair.oscillator import Oscillator
 from gearpair.table import Table
 
+ALREADY = ("one", "2 zeta sqrt(mean)")  # damping at a mean of one is the article's own
 MAX_PERIOD = 12  # longer ones count as no period: nobody reads them off a diagram
 
 
@@ -33,23 +34,16 @@ def all_hypotheses() -> tuple[Hypothesis, ...]:
     >>> len(all_hypotheses()), all_hypotheses()[0] == PRINTED
     (176, True)
     """
-    orders = list(product(("eps - 1", "2 - eps"), ("stiff", "soft"), FORCINGS))
-    scalings = [
-        (force, mean, damping)
-        for force, mean, damping in product(
-            ("Omega^2", "constant"), ("as printed", "one"), ("2 zeta", "zeta", "2 zeta sqrt(mean)")
-        )
-        if (mean, damping) != ("one", "2 zeta sqrt(mean)")
-    ]
-    rectangles = [
-        Hypothesis(stiff_for=s, first=i, phase=p, force=f, mean=m, damping=d)  # type: ignore[arg-type]
-        for (s, i, p), (f, m, d) in product(orders, scalings)
-    ]
-    harmonics = [
-        Hypothesis(stiff_for=s, first=i, phase=p, shape="first harmonic")  # type: ignore[arg-type]
-        for s, i, p in orders
-    ]
-    return (*rectangles, *harmonics)
+    orders = _combined("stiff_for", "first", phase=FORCINGS)
+    scalings = [each for each in _combined("force", "mean", "damping") if (each["mean"], each["damping"]) != ALREADY]
+    rectangles = [Hypothesis(**order, **scaling) for order, scaling in product(orders, scalings)]
+    return (*rectangles, *(Hypothesis(**order, shape="first harmonic") for order in orders))
+
+
+def _combined(*names: str, **others: Iterable[Any]) -> list[dict[str, Any]]:
+    """Every combination of the choices of some fields of a reading, and of other values."""
+    values = {name: CHOICES[name] for name in names} | others
+    return [dict(zip(values, each, strict=True)) for each in product(*values.values())]
 
 
 def followed(
@@ -177,8 +171,6 @@ def run_trials(
 
     Parameters
     ----------
-    hypotheses : sequence of Hypothesis
-    protocols : sequence of Protocol
     n_values : int
         Values on each axis.
     integrators : sequence of Integrator or None

@@ -28,10 +28,8 @@ def two_rotors(drive: GearDrive, x: float, v: float, n_periods: int) -> NDArray[
 
     Parameters
     ----------
-    drive : GearDrive
     x, v : float
         X and X' at the start (dimensionless).
-    n_periods : int
 
     Returns
     -------
@@ -81,7 +79,6 @@ def two_rotor_difference(osc: Oscillator, x: float = 1.3, v: float = 0.2, n_peri
 
     Parameters
     ----------
-    osc : Oscillator
     x, v : float
         X and X' at the start (dimensionless).
     n_periods : int

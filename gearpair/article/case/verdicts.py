@@ -18,15 +18,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 from gearpair.article import published
 from gearpair.table import Table
 
 Decided = Literal["confirmed", "corrected", "contrary", "refuted", "vacuous"]
 Undecided = Literal["definition", "assumption", "advice"]
-DECIDED: tuple[Decided, ...] = ("confirmed", "corrected", "contrary", "refuted", "vacuous")
-UNDECIDED: tuple[Undecided, ...] = ("definition", "assumption", "advice")
+DECIDED, UNDECIDED = get_args(Decided), get_args(Undecided)
 FAILS, NEARLY, HOLDS = 0, 1, 2
 NEAR, FAR = 0.01, 0.05  # of the axis: a number holds this near, and nearly holds this far
 
@@ -37,7 +36,6 @@ class Verdict:
 
     Attributes
     ----------
-    item : str
     printed, best : str
         What the printed and the best reading give.
     verdict : str
