@@ -135,11 +135,6 @@ class Oscillator:
         **changes
             Any field of the class; also ``contact_ratio``, ``a`` and ``b`` where the stiffness is
             the article's rectangle, whose reading is kept.
-
-        Raises
-        ------
-        ValueError
-            For an unknown name, a value out of range, or a wave that is not rectangular.
         """
         for name in changes:
             if name not in WHOLE:

@@ -39,11 +39,6 @@ class StiffnessWave:
     rectangle : Rectangle, optional
         Set by `rectangular`: the contact ratio, a and b that the two levels came from.
 
-    Raises
-    ------
-    ValueError
-        Naming the offending edge or level and what is allowed.
-
     Examples
     --------
     >>> wave = StiffnessWave(edges=(0.0, 0.25), levels=(2.0, 1.0))

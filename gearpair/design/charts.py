@@ -63,11 +63,6 @@ def speed_chart(
         ``mesh_frequency`` (dimensionless). Over ``jump``: ``jump_speed`` (rpm), ``jump_run``, ``jump_kind``,
         ``jump_from`` and ``jump_to``, see `find_jumps`.
 
-    Raises
-    ------
-    ValueError
-        For speeds that do not rise, or an argument out of range.
-
     Notes
     -----
     The dynamic transmission error is ``r_b1 theta1 - r_b2 theta2 = x + e``. The mesh force is the elastic one,

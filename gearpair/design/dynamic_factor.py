@@ -59,7 +59,7 @@ def iso_dynamic_factor(
     Parameters
     ----------
     drive : GearDrive
-        Of `GearDrive.from_pair`: the formulas need its teeth.
+        Of `GearDrive.from_pair`, with a torque: the formulas need its teeth and its load.
     speeds_rpm : array_like of float, shape (n,)
         Of the pinion.
     base_pitch_um, profile_um : float
@@ -70,11 +70,6 @@ def iso_dynamic_factor(
         the standard has it for grades 6 to 12.
     application_factor : float
         K_A.
-
-    Raises
-    ------
-    ValueError
-        For a drive without teeth or torque, or an argument out of range.
 
     Notes
     -----

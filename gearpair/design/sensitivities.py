@@ -60,11 +60,6 @@ def sensitivity(
         and the worst over both runs of ``dynamic_factor``, ``mesh_force`` (N), ``time_apart`` and ``impact_range``
         (rpm). The same of the drive as it is in ``base_dynamic_factor`` and so on.
 
-    Raises
-    ------
-    ValueError
-        For an unknown name, or a value that makes no drive.
-
     Notes
     -----
     A change of the geometry keeps the damping ratio, and takes inertias and mesh stiffness anew: `GearDrive.replace`.

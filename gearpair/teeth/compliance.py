@@ -54,11 +54,6 @@ def tooth_compliance(tooth: ToothProfile, roll: ArrayLike, poisson_ratio: float)
     poisson_ratio : float
         nu, dimensionless.
 
-    Returns
-    -------
-    ToothCompliance
-        Each times E b (dimensionless), shape of `roll`.
-
     Notes
     -----
     With the force F and the section's half thickness h (area ``2 h b``, second moment ``2 h^3 b / 3``)::
@@ -96,11 +91,6 @@ def tooth_compliance(tooth: ToothProfile, roll: ArrayLike, poisson_ratio: float)
 
 def hertz_compliance(poisson_ratio: float) -> float:
     """Compliance of one contact, both flanks together, times E b: ``4 (1 - nu^2) / pi``.
-
-    Parameters
-    ----------
-    poisson_ratio : float
-        nu, dimensionless.
 
     Notes
     -----
@@ -148,11 +138,6 @@ def foundation_compliance(tooth: ToothProfile, roll: ArrayLike) -> Array:
         Its clamp circle is the foundation's r_f, its clamp half angle theta_f.
     roll : array_like
         Roll angles of the load in radians, any shape.
-
-    Returns
-    -------
-    ndarray
-        Times E b (dimensionless), shape of `roll`.
 
     Notes
     -----

@@ -114,11 +114,6 @@ def double_contact_stiffness(
     phase, stiffness : ndarray, shape (5,)
         Fractions of the mesh period inside the zone of double contact; stiffness over E b (dimensionless).
 
-    Raises
-    ------
-    ValueError
-        For a body without stored neighbours.
-
     Examples
     --------
     >>> body = finite_element_bodies()["34 in a row"]

@@ -133,11 +133,6 @@ class MeshStiffness:
         StiffnessWave
             Each level is the curve's mean over its interval, over the mean of the period (dimensionless).
 
-        Raises
-        ------
-        ValueError
-            When there are fewer levels than zones.
-
         Examples
         --------
         >>> wave = mesh_stiffness(SpurPair()).wave(40)
@@ -179,7 +174,7 @@ def mesh_stiffness(
     coupling : {"summed", "ring"}
         ``"summed"``: the pairs in contact are springs side by side, as in most of the literature; each has its
         own gear body. ``"ring"``: they share their bodies. A load on one tooth also moves its neighbours'
-        feet, by `ring_compliance` (plane elasticity of a ring fixed at its bore).
+        feet, by `ring_compliance` (plane elasticity of a ring fixed at its bore); needs `foundation`.
     n_phases : int
         Samples over the mesh period, at least 2.
 
@@ -187,11 +182,6 @@ def mesh_stiffness(
     -------
     MeshStiffness
         Samples, means and staircases; N/m.
-
-    Raises
-    ------
-    ValueError
-        An unknown choice, too few phases, or ring coupling of rigid bodies.
 
     Notes
     -----

@@ -125,15 +125,7 @@ class ToothProfile:
     def fillet(self, fraction: ArrayLike) -> tuple[Array, Array, Array, Array]:
         """The root curve, from the clamp (fraction 0) to the involute (fraction 1).
 
-        Parameters
-        ----------
-        fraction : array_like
-            Numbers from 0 to 1, any shape.
-
-        Returns
-        -------
-        y, h, dy, dh : ndarray
-            Coordinates in modules, and their derivatives by the fraction.
+        Returns what `involute` does, with derivatives by the fraction.
 
         Notes
         -----

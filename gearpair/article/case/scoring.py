@@ -167,11 +167,6 @@ def score(parameter: str, values: ArrayLike, periods: ArrayLike) -> Score:
     periods : array_like of int, shape (n,)
         The period at each value, 0 where the motion is not periodic.
 
-    Raises
-    ------
-    ValueError
-        For a parameter that the article does not vary, or values that do not ascend.
-
     Notes
     -----
     The table is a staircase: each value stands for the interval up to the middle between it and its neighbours. Its

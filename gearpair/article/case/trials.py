@@ -174,12 +174,7 @@ def run_trials(
     n_values : int
         Values on each axis.
     integrators : sequence of Integrator or None
-        None is the exact flow.
-
-    Raises
-    ------
-    ValueError
-        For an integrator with a protocol that waits until motions settle.
+        None is the exact flow; another needs protocols with a number of mesh periods to discard.
 
     Examples
     --------
