@@ -25,11 +25,8 @@ OSCILLATOR = tuple(field.name for field in fields(Oscillator) if field.name != "
 WAVE = ("contact_ratio", "a", "b", "reading")
 PAIR = tuple(field.name for field in fields(SpurPair))
 MESH = ("root", "foundation", "coupling")
-DRIVE = (
-    *("pinion_torque_nm", "backlash_um", "backlash", "transmission_error_um", "damping_ratio"),
-    *("pinion_added_inertia_kg_m2", "gear_added_inertia_kg_m2"),
-)
-ANY_SPEED = 1000.0  # rpm, of a drive that is checked for all else
+DRIVE = ("pinion_torque_nm", "transmission_error_um", "damping_ratio")
+ADDED = ("pinion_added_inertia_kg_m2", "gear_added_inertia_kg_m2")
 STANDS_FOR = {
     **dict.fromkeys(("lowest", "highest", "chaos_near", "frequency_from", "frequency_to"), "mesh_frequency"),
     "weak_damping": "damping_ratio",
@@ -86,7 +83,8 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
     if pair := _chosen(values, PAIR):
         mesh_stiffness(SpurPair(**pair), **_chosen(values, MESH))
     if "pinion_torque_nm" in values:
-        GearDrive.from_pair(SpurPair(**pair), pinion_speed_rpm=ANY_SPEED, **_chosen(values, DRIVE))
+        backlash = SpurPair(**pair).normal_backlash_um(**_chosen(values, ("backlash_um", "backlash")))
+        GearDrive.from_pair(SpurPair(**pair), backlash_um=backlash, **_chosen(values, DRIVE))
     for name, scalar in {**STANDS_FOR, **stands_for}.items():
         if name in values:
             _check_as(name, partial(osc.replace, **{scalar: values[name]}))
@@ -128,7 +126,7 @@ def _check_alone(name: str, value: Any) -> None:
         check_number(name, value)
     elif name in ("x_reach", "v_reach", "pinion_torque_nm", "weak_damping") or (name in SPEEDS and value is not None):
         check_number(name, value, above=0.0)
-    elif name in ("narrowest", "base_pitch_um", "profile_um"):
+    elif name in ("narrowest", "base_pitch_um", "profile_um", *ADDED):
         check_number(name, value, at_least=0.0)
     elif name == "tolerances":
         if not value:

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from gearpair.article.two_rotors import two_rotors
+from gearpair.article.case.two_rotors import two_rotors
 
 import gearpair as gp
 
@@ -37,7 +37,7 @@ def test_there_and_back():
     """with_oscillator(oscillator()) is the identity, and the other way round."""
     again = DRIVE.with_oscillator(DRIVE.oscillator())
     for f in dataclasses.fields(DRIVE):
-        if f.name not in ("stiffness", "error_harmonics", "mesh"):
+        if isinstance(getattr(DRIVE, f.name), float):
             assert getattr(again, f.name) == pytest.approx(getattr(DRIVE, f.name), rel=1e-13)
     osc = gp.Oscillator(mesh_frequency=1.3, damping_ratio=0.05, error_phase=1.0)
     back = DRIVE.with_oscillator(osc).oscillator()
@@ -61,4 +61,4 @@ def test_mean_force_is_the_articles():
 )
 def test_bad_input_is_named(name, value):
     with pytest.raises(ValueError, match=f"{name}.*got"):
-        dataclasses.replace(DRIVE, **{name: value})
+        DRIVE.replace(**{name: value})

@@ -47,10 +47,9 @@ def measure_motion(drive: GearDrive, state: SteadyState) -> dict[str, float]:
     --------
     >>> from gearpair.motion import steady_state
     >>> drive = GearDrive(pinion_teeth=34, pinion_inertia_kg_m2=2e-3, gear_inertia_kg_m2=2e-3,
-    ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0,
-    ...     pinion_speed_rpm=8000.0, backlash_um=100.0, transmission_error_um=10.0,
-    ...     mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
-    >>> loads = measure_motion(drive, steady_state(drive.oscillator()))
+    ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0, backlash_um=100.0,
+    ...     transmission_error_um=10.0, mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
+    >>> loads = measure_motion(drive, steady_state(drive.at_speed(8000.0).oscillator()))
     >>> round(loads["mesh_force"]), round(loads["dynamic_factor"], 2), round(loads["impact_rate"])
     (9655, 3.85, 4533)
     """

@@ -168,7 +168,6 @@ def personal_drive(student_id: str) -> GearDrive:
         backlash_um=_pick(who, "backlash_um", BACKLASHES_UM),
         mean_stiffness_n_per_um=mesh_stiffness(pair).mean / 1e6,
         pinion_torque_nm=0.0,
-        pinion_speed_rpm=1.0,
         transmission_error_um=0.0,
         damping_n_s_per_m=0.0,
     )

@@ -33,7 +33,7 @@ FAILS, NEARLY, HOLDS = verdicts.FAILS, verdicts.NEARLY, verdicts.HOLDS
 )
 def test_the_rule(printed, best, word):
     """What holds better as printed than in the best reading corrects nothing: it speaks against that reading."""
-    assert verdicts.judge(printed, best) == word
+    assert verdicts.verdict_word(printed, best) == word
     if NEARLY not in (printed, best):
         found = verdicts.both("F1", ["a", "b"], [printed == HOLDS, best == HOLDS], "a test")
         assert found == verdicts.Verdict("F1", "a", "b", word, "a test")

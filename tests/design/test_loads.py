@@ -25,8 +25,8 @@ def clatter():
 @pytest.mark.parametrize("speed", [3000.0, 4500.0, 7500.0])
 def test_a_drive_that_is_driven_back_bears_on_one_flank_what_it_bore_on_the_other(speed):
     """X to -X turns the torque round and moves the error by half a period; the equation stays."""
-    drive = dataclasses.replace(DRIVE, pinion_speed_rpm=speed)
-    back = dataclasses.replace(drive, pinion_torque_nm=-40.0, error_phase_rad=np.pi)
+    drive = DRIVE.at_speed(speed)
+    back = drive.replace(pinion_torque_nm=-40.0, error_phase_rad=np.pi)
     state, mirrored = gp.steady_state(drive.oscillator()), gp.steady_state(back.oscillator(), -1.0, 0.0)
     assert mirrored.x_min == pytest.approx(-state.x_max, rel=1e-9) and mirrored.x_min < -1.0
     assert measure_motion(back, mirrored) == pytest.approx(measure_motion(drive, state), rel=1e-9)

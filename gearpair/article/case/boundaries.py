@@ -66,10 +66,6 @@ def boundary_table(trials: Mapping[str, Sequence[Trial]], bifurcations: Mapping[
     bifurcations : mapping of str to sequence of Bifurcation
         By reading; the one of the kind that the article names, if within a tenth of the axis.
 
-    Returns
-    -------
-    Table
-
     Examples
     --------
     >>> from gearpair.article import SWAPPED
@@ -102,7 +98,6 @@ def distance_from_bifurcations(
     Parameters
     ----------
     parameter : {"mesh_frequency", "damping_ratio"}
-    bifurcations : iterable of Bifurcation
     n : int
         Random tables.
 
@@ -152,13 +147,8 @@ def bifurcations_of(hypothesis: Hypothesis, max_period: int = 3) -> list[Bifurca
 
     Parameters
     ----------
-    hypothesis : Hypothesis
     max_period : int
         The longest period followed.
-
-    Returns
-    -------
-    list of Bifurcation
 
     Examples
     --------

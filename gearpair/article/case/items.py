@@ -44,7 +44,6 @@ class Evidence:
 
     Parameters
     ----------
-    hypothesis : Hypothesis
     reached : sequence of Reached
         The motions that it has along each published axis.
     changes : sequence of Bifurcation
@@ -315,10 +314,6 @@ def judge_items(printed: Evidence, best: Evidence, items: Collection[str] | None
         What was found in the printed and in the best reading.
     items : collection of str, optional
         Only these.
-
-    Returns
-    -------
-    list of Verdict
 
     Examples
     --------

@@ -24,14 +24,6 @@ TOLERANCES = {"mesh_frequency": 0.003, "damping_ratio": 0.0002}
 def boundaries_met(trial: Trial) -> int:
     """How many of the published boundaries of both tables a diagram meets.
 
-    Parameters
-    ----------
-    trial : Trial
-
-    Returns
-    -------
-    int
-
     Examples
     --------
     >>> from gearpair.article import SWAPPED
@@ -54,10 +46,8 @@ def most_met_by_chance(trials: Sequence[Trial], n: int = 1000, *, seed: int = 0)
 
     Parameters
     ----------
-    trials : sequence of Trial
     n : int
         Random tables.
-    seed : int
 
     Returns
     -------

@@ -16,7 +16,6 @@ UNITS = GearDrive(
     pinion_base_radius_mm=47.9,
     gear_base_radius_mm=62.0,
     pinion_torque_nm=120.0,
-    pinion_speed_rpm=2500.0,
     backlash_um=100.0,
     transmission_error_um=10.0,
     mean_stiffness_n_per_um=350.0,
@@ -29,10 +28,8 @@ def two_rotors(drive: GearDrive, x: float, v: float, n_periods: int) -> NDArray[
 
     Parameters
     ----------
-    drive : GearDrive
     x, v : float
         X and X' at the start (dimensionless).
-    n_periods : int
 
     Returns
     -------
@@ -82,7 +79,6 @@ def two_rotor_difference(osc: Oscillator, x: float = 1.3, v: float = 0.2, n_peri
 
     Parameters
     ----------
-    osc : Oscillator
     x, v : float
         X and X' at the start (dimensionless).
     n_periods : int
