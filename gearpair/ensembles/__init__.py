@@ -1,6 +1,5 @@
 """Ensembles of motions: sweeps and maps over parameters, basins over starts, and where each motion lives."""
 
-from gearpair.ensembles.datasets import symbol
 from gearpair.ensembles.planes import attractor_motions, attractor_states, basins
 from gearpair.ensembles.ranges import (
     MotionRange,
@@ -17,6 +16,7 @@ from gearpair.ensembles.stores import decoded
 from gearpair.ensembles.sweeps import parameter_map, sweep
 from gearpair.ensembles.tipping import continue_attractors
 from gearpair.ensembles.uncertainty import BasinEntropy, UncertaintyExponent, basin_entropy, uncertainty_exponent
+from gearpair.quantities import symbol
 
 __all__ = [
     "BasinEntropy",

@@ -15,7 +15,6 @@ from gearpair._checks import check_choice
 from gearpair._flow.settle import Settled
 from gearpair.ensembles.capture import found_in, number_attractors
 from gearpair.ensembles.datasets import (
-    attributes,
     dataset,
     oscillators_along,
     settled_columns,
@@ -28,6 +27,7 @@ from gearpair.motion.same_orbit import SAME_ORBIT
 from gearpair.motion.settling import SettleSettings, settle_batch
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
+from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
-from gearpair.ensembles.datasets import attributes, oscillators_along
+from gearpair.ensembles.datasets import oscillators_along
 from gearpair.methods.runge_kutta import runge_kutta_section, section_period
 from gearpair.methods.solvers import integrated_trajectory
 from gearpair.motion.trajectories import Impacts, stroboscopic_map, trajectory
 from gearpair.oscillator import Oscillator
+from gearpair.quantities import attributes
 from gearpair.stiffness import StiffnessWave
 from gearpair.table import Table
 

@@ -12,10 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair._checks import check_choice, check_count, check_number
 from gearpair._cores import on_all_cores
 from gearpair._flow.runge_kutta import COMPLETE, Steps, integrate_lanes
-from gearpair.ensembles.datasets import attributes, oscillators_along
+from gearpair.ensembles.datasets import oscillators_along
 from gearpair.motion.settling import SettleSettings, lanes_of
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
+from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -142,7 +143,7 @@ def runge_kutta_sweep(
             "x": ((parameter, "sample"), points[:, :, 0], attributes("x")),
             "v": ((parameter, "sample"), points[:, :, 1], attributes("v")),
             "period": (parameter, [section_period(section, closeness) for section in points], attributes("period")),
-            "calls": (parameter, calls, {"long_name": "calls of the right-hand side", "units": "1"}),
+            "calls": (parameter, calls, attributes("calls")),
         },
         {parameter: (parameter, checked, attributes(parameter))},
         {"seeding": seeding, "oscillator": repr(osc), "rtol": rtol, "atol": atol},

@@ -17,7 +17,8 @@ from gearpair.article.case.search import TOLERANCES
 from gearpair.article.case.trials import Ranked, Trial
 from gearpair.article.published import StiffnessRow
 from gearpair.article.readings import Hypothesis
-from gearpair.plotting.style import BACKLASH, BOUNDARY, INK, LABELS, STYLE, motion_colour, new_axes
+from gearpair.plotting.style import BACKLASH, BOUNDARY, INK, STYLE, motion_colour, new_axes
+from gearpair.quantities import QUANTITIES, axis_label
 
 
 def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax: Axes | None = None) -> Axes:
@@ -98,7 +99,9 @@ def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = ""
         ax.plot(here, np.full(len(here), row), "o", markersize=3.5, color=colour)
     ax.set_yticks(range(len(motions)), list(map(str, motions)))
     ranges = published.ranges(reached.parameter)
-    ax.set(xlabel=LABELS[reached.parameter], xlim=(ranges[0].lower, ranges[-1].upper), ylim=(len(motions) - 0.5, -0.5))
+    ax.set(
+        xlabel=axis_label(reached.parameter), xlim=(ranges[0].lower, ranges[-1].upper), ylim=(len(motions) - 0.5, -0.5)
+    )
     ax.set_title(title)
     return ax
 
@@ -182,7 +185,7 @@ def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = No
             steps = [n or 0 for n, distance in drawn if distance is not None]
             away = np.clip([distance for _, distance in drawn if distance is not None], -rim, rim)
             ax.plot(steps, away, linestyle="", marker=marker, markersize=3, color=colour, label=seeding)
-        symbol = LABELS[boundary.parameter].split("$")[1]
+        symbol = QUANTITIES[boundary.parameter].in_tex
         ax.set(xscale="log", ylim=(-1.1 * rim, 1.1 * rim), title=f"{boundary.item}: ${symbol}$ = {boundary.value:g}")
         ax.set_xticks([20, 50, 100, 200, 400], ["20", "50", "100", "200", "400"])
         ax.minorticks_off()
@@ -226,7 +229,7 @@ def stiffness_trends(
                 [row.teeth_wheel for row in rows], [getattr(row, name) for row in rows], marker="o" if k else "s",
                 markersize=5, color=colours[k % len(colours)], linestyle="-" if k else "--", label=label,
             )  # fmt: skip
-        ax.set(xlabel="teeth of the gear $z_2$", title=LABELS[name])
+        ax.set(xlabel="teeth of the gear $z_2$", title=axis_label(name))
         ax.set_xticks([row.teeth_wheel for row in published])
     return list(axes)
 

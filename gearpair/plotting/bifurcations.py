@@ -14,7 +14,8 @@ from matplotlib.patheffects import withStroke
 from gearpair.bifurcations.branches import Branch
 from gearpair.bifurcations.curves import BifurcationCurve
 from gearpair.motion.names import periodic
-from gearpair.plotting.style import INK, LABELS, motion_colour, new_axes
+from gearpair.plotting.style import INK, motion_colour, new_axes
+from gearpair.quantities import axis_label
 
 MARKERS = {"fold": "^", "flip": "o", "grazing": "D"}
 DASHES: dict[str, Any] = {"fold": "-", "flip": "--", "grazing": ":"}
@@ -66,8 +67,8 @@ def branches(
                 b.value, b.x, marker=MARKERS[b.kind], markersize=3.6, color=colour, markeredgecolor="white",
                 markeredgewidth=0.5, linestyle="", zorder=5,
             )  # fmt: skip
-        ax.set_xlabel(LABELS[branch.parameter])
-    ax.set_ylabel(LABELS["section"])
+        ax.set_xlabel(axis_label(branch.parameter))
+    ax.set_ylabel(axis_label("section"))
     handles = [Line2D([], [], marker=MARKERS[k], linestyle="", color="#555555", label=k) for k in MARKERS if k in kinds]
     if handles:
         _add_key(ax, handles)
@@ -129,7 +130,7 @@ def bifurcation_curves(
         shade = colour or motion_colour(periodic(curve.period))
         halo = [withStroke(linewidth=2.4, foreground="white")]
         ax.plot(*curve.values.T, color=shade, linestyle=DASHES[curve.kind], linewidth=1.1, path_effects=halo)
-        ax.set(xlabel=LABELS[curve.parameters[0]], ylabel=LABELS[curve.parameters[1]])
+        ax.set(xlabel=axis_label(curve.parameters[0]), ylabel=axis_label(curve.parameters[1]))
     kinds = [kind for kind in DASHES if any(kind == curve.kind for curve in drawn)]
     handles = [Line2D([], [], color=colour or INK, linestyle=DASHES[kind], label=kind) for kind in kinds]
     if colour is None:

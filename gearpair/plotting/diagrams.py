@@ -17,15 +17,15 @@ from gearpair.plotting.style import (
     BACKLASH,
     BOUNDARY,
     INK,
-    LABELS,
     add_motion_legend,
     legend_name,
     motion_colour,
     new_axes,
 )
+from gearpair.quantities import axis_label
 
 LETTER = 0.0115  # share of the axis that a letter of a bar's name takes
-REACH = 10.0  # |X| where a diagram ends
+LARGEST_DRAWN = 10.0  # |X| where a diagram ends
 
 
 def bifurcation_diagram(
@@ -35,7 +35,7 @@ def bifurcation_diagram(
     title: str = "",
     legend: bool = True,
     size: float = 1.1,
-    reach: float = REACH,
+    reach: float = LARGEST_DRAWN,
 ) -> Axes:
     """Section points of X at each value of a sweep, coloured by the motion's period.
 
@@ -92,7 +92,7 @@ def bifurcation_diagram(
                 marker="^", markersize=3.5, markeredgewidth=0.4, markeredgecolor="#777777", clip_on=False,
                 markerfacecolor=motion_colour(chosen[0]), label=f"{name}, not drawn",
             )  # fmt: skip
-    ax.set(xlabel=LABELS[parameter], ylabel=LABELS["section"], xlim=(values.min(), values.max()))
+    ax.set(xlabel=axis_label(parameter), ylabel=axis_label("section"), xlim=(values.min(), values.max()))
     ax.annotate(title, (0.0, 1.0), xytext=(6, -4), xycoords="axes fraction", textcoords="offset points", va="top")
     if legend:
         add_motion_legend(ax, motions)
@@ -171,7 +171,7 @@ def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) 
                 values[motions == motion], sweep[extreme].values[motions == motion], linestyle="", marker=".",
                 markersize=2, color=motion_colour(motion), label=str(motion) if extreme == "x_min" else None,
             )  # fmt: skip
-    ax.set(xlabel=LABELS[parameter], ylabel=r"$X_{\min}$ and $X_{\max}$", xlim=(values.min(), values.max()))
+    ax.set(xlabel=axis_label(parameter), ylabel=r"$X_{\min}$ and $X_{\max}$", xlim=(values.min(), values.max()))
     if legend:
         add_motion_legend(ax, motions)
     return ax
@@ -215,7 +215,7 @@ def exponents(sweep: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, l
     ax.fill_between(values, largest - 2.0 * error, largest + 2.0 * error, color=colour, alpha=0.25, linewidth=0)
     ax.plot(values, largest, color=colour, linewidth=0.9, label=label)
     ax.fill_between(values, 0.0, largest, where=largest > 0.0, color=motion_colour(CHAOS), alpha=0.25, linewidth=0)
-    ax.set(xlabel=LABELS[parameter], ylabel=LABELS["exponent"], xlim=(values.min(), values.max()))
+    ax.set(xlabel=axis_label(parameter), ylabel=axis_label("exponent"), xlim=(values.min(), values.max()))
     return ax
 
 
@@ -273,7 +273,7 @@ def range_strips(
     ax.set_yticks(range(len(strips)), list(strips))
     ax.tick_params(axis="y", length=0)
     ax.spines["left"].set_visible(False)
-    ax.set(xlim=(left, right), ylim=(len(strips) - 0.5, -0.5), xlabel=LABELS.get(parameter or "", parameter))
+    ax.set(xlim=(left, right), ylim=(len(strips) - 0.5, -0.5), xlabel=axis_label(parameter or ""))
     if legend:
         add_motion_legend(ax, [bar[3] for bar in bars])
     return ax
@@ -324,7 +324,7 @@ def range_lanes(
         )  # fmt: skip
     ax.set_yticks(range(len(motions)), list(map(str, motions)))
     ax.tick_params(axis="y", length=0)
-    ax.set(ylim=(len(motions) - 0.5, -0.5), xlabel=LABELS.get(parameter or "", parameter))
+    ax.set(ylim=(len(motions) - 0.5, -0.5), xlabel=axis_label(parameter or ""))
     ax.set_xlim(min(each.lower for _, each in rows), max(each.upper for _, each in rows))
     for edge in range(1, len(motions)):
         ax.axhline(edge - 0.5, color=BOUNDARY, linewidth=0.3)
@@ -363,7 +363,7 @@ def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
     bands = shares.share.values.T
     colours = [motion_colour(motion) for motion in motions]
     ax.stackplot(values, bands, labels=list(map(str, motions)), colors=colours, linewidth=0.4, edgecolor="white")
-    ax.set(xlabel=LABELS[parameter], ylabel="share of the starts", xlim=(values.min(), values.max()), ylim=(0, 1))
+    ax.set(xlabel=axis_label(parameter), ylabel=axis_label("share"), xlim=(values.min(), values.max()), ylim=(0, 1))
     if legend:
         add_motion_legend(ax, motions)
     return ax

@@ -12,18 +12,8 @@ from matplotlib.colors import LogNorm, Normalize, to_rgb
 
 from gearpair.motion.names import IMPACT_NAMES, Motion
 from gearpair.plotting.planes import IMPACT_COLOURS, name_colours
-from gearpair.plotting.style import LABELS, add_motion_legend, motion_colour, new_axes
-
-QUANTITIES = {
-    "load_factor": "dynamic load factor",
-    "drive_velocity": "largest approach speed, drive side",
-    "coast_velocity": "largest approach speed, coast side",
-    "x_rms": "rms of $X$ about its mean",
-    "peak_to_peak": "peak-to-peak value of $X$",
-    "exponent": r"largest exponent $\lambda_1$",
-    "settling_time": "settling time (mesh periods)",
-    "largest_displacement": r"largest $|X|$",
-}
+from gearpair.plotting.style import add_motion_legend, motion_colour, new_axes
+from gearpair.quantities import axis_label
 
 
 def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
@@ -101,7 +91,7 @@ def quantity_map(
     low = float(np.nanmin(values[values > 0.0])) if logarithmic else float(np.nanmin(values))
     ax = _image(result, values, ax, norm=(LogNorm if logarithmic else Normalize)(low, top), cmap="cividis")
     beyond = "max" if np.nanmax(values) > top else "neither"
-    ax.figure.colorbar(ax.images[0], ax=ax, label=QUANTITIES.get(quantity, quantity), pad=0.01, extend=beyond)
+    ax.figure.colorbar(ax.images[0], ax=ax, label=axis_label(quantity), pad=0.01, extend=beyond)
     return ax
 
 
@@ -115,9 +105,8 @@ def _image(result: xr.Dataset, pixels: np.ndarray, ax: Axes | None, **colours: A
     ax.imshow(
         pixels, origin="lower", extent=(left, right, low, high), aspect="auto", interpolation="nearest", **colours
     )  # fmt: skip
-    starts = {"x": "initial displacement $X_0$", "v": "initial velocity $X_0'$"}
-    names = LABELS | starts if dims == ["v", "x"] else LABELS
-    ax.set(xlabel=names[horizontal], ylabel=names[vertical])
+    names = ("start_v", "start_x") if dims == ["v", "x"] else dims
+    ax.set(xlabel=axis_label(names[1]), ylabel=axis_label(names[0]))
     return ax
 
 
@@ -176,7 +165,7 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
         below = above
     for i in np.flatnonzero(np.any(result.tips_to.values != -1, axis=1)):
         ax.plot(between[i - 1], 1.0, marker="v", markersize=4, color="black", clip_on=False, label="tipping point")
-    ax.set(xlabel=LABELS[parameter], ylabel="share of the starts", xlim=(values.min(), values.max()), ylim=(0.0, 1.0))
+    ax.set(xlabel=axis_label(parameter), ylabel=axis_label("share"), xlim=(values.min(), values.max()), ylim=(0.0, 1.0))
     if legend:
         add_motion_legend(ax, present)
     return ax

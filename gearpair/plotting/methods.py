@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from gearpair.ensembles.ranges import swept_parameter
 from gearpair.methods.certificates import Segment
 from gearpair.methods.precision import EXACT, Precision, numerical_chaos
-from gearpair.plotting.style import BOUNDARY, INK, LABELS, new_axes
+from gearpair.plotting.style import BOUNDARY, INK, new_axes
+from gearpair.quantities import axis_label
 
 METHOD_LOOKS = {
     "RK45": ("#E69F00", "o"),
@@ -106,7 +107,7 @@ def drawn_diagram(
             markeredgewidth=0, markersize=size, color=colour, label=label, rasterized=True,
         )  # fmt: skip
     values = drawn[parameter].values
-    ax.set(xlabel=LABELS[parameter], ylabel=LABELS["section"], xlim=(values.min(), values.max()))
+    ax.set(xlabel=axis_label(parameter), ylabel=axis_label("section"), xlim=(values.min(), values.max()))
     ax.annotate(
         title, (0.0, 1.0), xytext=(6, -4), xycoords="axes fraction", textcoords="offset points", va="top",
         bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 1.5},
@@ -152,7 +153,7 @@ def certificate(segment: Segment | None, ax: Axes | None = None, *, legend: bool
             label="crossing",
         )  # fmt: skip
     _show_boundaries(segment, ax, low, high)
-    ax.set(xlabel=T, ylabel=LABELS["x"], xlim=(0.0, segment.span))
+    ax.set(xlabel=T, ylabel=axis_label("x"), xlim=(0.0, segment.span))
     if legend:
         ax.legend()
     return ax

@@ -15,7 +15,8 @@ from gearpair.motion.spectra import spectrum as spectrum_of
 from gearpair.motion.steady import SteadyState
 from gearpair.motion.trajectories import Trajectory, trajectory
 from gearpair.plotting.diagrams import shade_backlash
-from gearpair.plotting.style import BOUNDARY, INK, LABELS, STYLE, motion_colour, new_axes
+from gearpair.plotting.style import BOUNDARY, INK, STYLE, motion_colour, new_axes
+from gearpair.quantities import QUANTITIES, axis_label
 
 SHOWN_PERIODS = 8  # mesh periods of a time history
 SPECTRUM_PERIODS = 240  # at least so many mesh periods under a spectrum
@@ -59,7 +60,7 @@ def time_history(
         made = motion.impacts.contact & (motion.impacts.tau <= motion.tau[:last][-1])
         when = motion.impacts.tau[made] / motion.oscillator.period
         _contact_dots(ax, when, motion.impacts.side[made].astype(float), colour)
-    ax.set(xlabel=LABELS["tau"], ylabel=LABELS["x"], xlim=(0.0, tau[-1]))
+    ax.set(xlabel=axis_label("tau"), ylabel=axis_label("x"), xlim=(0.0, tau[-1]))
     return ax
 
 
@@ -103,7 +104,7 @@ def phase_portrait(
     if impacts:
         made = motion.impacts.contact & (motion.impacts.tau <= motion.tau[:last][-1])
         _contact_dots(ax, motion.impacts.side[made].astype(float), motion.impacts.velocity[made], colour)
-    ax.set(xlabel=LABELS["x"], ylabel=LABELS["v"])
+    ax.set(xlabel=axis_label("x"), ylabel=axis_label("v"))
     return ax
 
 
@@ -138,7 +139,7 @@ def poincare_section(
         x, v, linestyle="", marker="o", markeredgewidth=0, color=colour, rasterized=not few,
         markersize=size or (5.0 if few else 1.0),
     )  # fmt: skip
-    ax.set(xlabel=LABELS["x"], ylabel=LABELS["v"])
+    ax.set(xlabel=axis_label("x"), ylabel=axis_label("v"))
     return ax
 
 
@@ -180,7 +181,7 @@ def spectrum(
     else:
         ax.plot(frequency, amplitude, color=colour, linewidth=0.6)
     ax.set_yscale("log")
-    ax.set(xlabel=LABELS["frequency"], ylabel="amplitude", xlim=(0, highest + 0.1), ylim=(LOWEST_LINE, 10.0))
+    ax.set(xlabel=axis_label("frequency"), ylabel="amplitude", xlim=(0, highest + 0.1), ylim=(LOWEST_LINE, 10.0))
     ax.set_xticks(range(int(highest) + 1))
     return ax
 
@@ -259,7 +260,7 @@ def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequen
         figure = plt.figure(figsize=(8.6, 0.5 + 1.75 * len(states)))
         grid = figure.subplots(len(states), len(VIEWS), squeeze=False)
         for row, (name, state) in zip(grid, states.items(), strict=True):
-            symbol = LABELS[parameter].split("$")[1]
+            symbol = QUANTITIES[parameter].in_tex
             portrait(state, row, title=f"{name}  (${symbol} = {state.oscillator.parameter(parameter):.4g}$)")
         for ax, view in zip(grid[0][1:], VIEWS[1:], strict=True):
             ax.set_title(view, weight="normal", loc="right")

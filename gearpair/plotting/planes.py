@@ -16,7 +16,8 @@ from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import IMPACT_NAMES, Motion, motions_of
 from gearpair.motion.steady import SteadyState
 from gearpair.plotting.diagrams import shade_backlash
-from gearpair.plotting.style import LABELS, add_motion_legend, motion_colour, new_axes
+from gearpair.plotting.style import add_motion_legend, motion_colour, new_axes
+from gearpair.quantities import axis_label
 
 MOST_NAMED = 8  # attractors that a legend names one by one
 
@@ -120,7 +121,7 @@ def _map(ax: Axes, result: xr.Dataset, numbers: np.ndarray, colours: Sequence[tu
         result.x.values, result.v.values, numbers, cmap=ListedColormap(list(colours)), vmin=-0.5,
         vmax=len(colours) - 0.5, shading="nearest", rasterized=True,
     )  # fmt: skip
-    ax.set(xlabel="initial displacement $X_0$", ylabel="initial velocity $X_0'$")
+    ax.set(xlabel=axis_label("start_x"), ylabel=axis_label("start_v"))
 
 
 def name_colours(ax: Axes, colours: Mapping[str, tuple[float, float, float]], columns: int = 1) -> None:
@@ -192,7 +193,7 @@ def finite_exponents(result: xr.Dataset, ax: Axes | None = None, *, largest: flo
     )  # fmt: skip
     shade_backlash(ax, horizontal=False)
     ax.figure.colorbar(shown, ax=ax, label=r"largest exponent $\lambda_1$", pad=0.01)
-    ax.set(xlabel="initial displacement $X_0$", ylabel="initial velocity $X_0'$")
+    ax.set(xlabel=axis_label("start_x"), ylabel=axis_label("start_v"))
     return ax
 
 
@@ -238,7 +239,7 @@ def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     half_x, half_y = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
     extent = (x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y)
     ax.imshow(pixels, origin="lower", extent=extent, aspect="auto", interpolation="nearest")
-    ax.set(xlabel=LABELS[horizontal], ylabel=LABELS[vertical])
+    ax.set(xlabel=axis_label(horizontal), ylabel=axis_label(vertical))
     if legend:
         add_motion_legend(ax, present)
     return ax

@@ -10,9 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
 from gearpair.design import IdleRattle, IsoDynamicFactor
+from gearpair.design.sensitivities import OUTCOMES
 from gearpair.motion.names import IMPACT_NAMES
 from gearpair.plotting.planes import IMPACT_COLOURS
 from gearpair.plotting.style import INK, new_axes
+from gearpair.quantities import axis_label
 
 # Lines need more contrast than areas: contact kept, lost on one side, both flanks struck.
 STATE_INK: Mapping[str, str] = {"none_drive": "#1F3A5F", "single_drive": "#D55E00", "double": "#54278F"}
@@ -27,12 +29,6 @@ CHANGES: Mapping[str, str] = {
     "transmission_error_um": "transmission error",
     "damping_ratio": "damping ratio",
     "addendum": "addendum (contact ratio)",
-}
-OUTCOMES: Mapping[str, str] = {
-    "dynamic_factor": "largest dynamic factor",
-    "mesh_force": "largest mesh force (N)",
-    "time_apart": "largest share of time apart",
-    "impact_range": "speeds with impacts (rpm)",
 }
 
 
@@ -88,7 +84,7 @@ def dynamic_factors(
         _by_state(ax, speed, values, states, style, width)
     if jumps:
         _mark_jumps(ax, chart)
-    ax.set(xlabel="speed of the pinion (rpm)", ylabel="largest mesh force / mean force", xlim=(speed[0], speed[-1]))
+    ax.set(xlabel=axis_label("speed"), ylabel=axis_label("dynamic_factor"), xlim=(speed[0], speed[-1]))
     ax.set_ylim(0.8, 0.8 + (top - 0.8) * 1.35)
     _strips(ax, chart)
     ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.02), ncols=5, handlelength=2.2, borderaxespad=0.0, fontsize=8)
@@ -191,8 +187,8 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]
         chosen = chart.sel(run=run)
         left.plot(speed, chosen.dte_rms.values, color=INK, linestyle=style, label=f"run {run}")
         right.plot(speed, chosen.impact_velocity.values, color=INK, linestyle=style, label=f"run {run}")
-    left.set(xlabel="speed of the pinion (rpm)", ylabel="dynamic transmission error, rms (µm)")
-    right.set(xlabel="speed of the pinion (rpm)", ylabel="largest impact velocity (mm/s)")
+    left.set(xlabel=axis_label("speed"), ylabel=axis_label("dte_rms"))
+    right.set(xlabel=axis_label("speed"), ylabel=axis_label("impact_velocity"))
     for ax in axes:
         ax.set_xlim(speed[0], speed[-1])
         ax.set_ylim(bottom=0.0)
@@ -244,7 +240,7 @@ def tornado(
     ax.axvline(base, color="#333333", linewidth=0.9, zorder=3)
     names = [str(found.change.values[k]) for k in order]
     ax.set_yticks(range(len(names)), [CHANGES.get(name, name) for name in names])
-    ax.set_xlabel(OUTCOMES[outcome])
+    ax.set_xlabel(axis_label(OUTCOMES[outcome]))
     ax.margins(x=0.12)
     ax.legend(
         handles=[Patch(color=low_colour, label="lower"), Patch(color=high_colour, label="higher")],
@@ -276,7 +272,7 @@ def rattle(found: IdleRattle, ax: Axes | None = None) -> Axes:
     """
     ax = new_axes(ax, 2.8)
     ax.plot(found.speed_rpm, found.impact_velocity, color=INK)
-    ax.set(xlabel="speed of the pinion (rpm)", ylabel="largest impact velocity (mm/s)")
+    ax.set(xlabel=axis_label("speed"), ylabel=axis_label("impact_velocity"))
     ax.set_xlim(found.speed_rpm[0], found.speed_rpm[-1])
     ax.set_ylim(bottom=0.0)
     quiet = found.rattle_ratio < 1.0

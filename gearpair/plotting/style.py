@@ -60,23 +60,6 @@ BACKLASH = "#F1EDE4"  # the strip where the teeth are out of contact
 BOUNDARY = "#8C8577"
 INK = "#1F3A5F"  # curves that have no period to tell
 
-LABELS = {
-    "mean_force": "mean force $F_m'$",
-    "error_amplitude": "transmission error $F_{ah}$",
-    "error_phase": r"phase of the transmission error $\varphi_h$ (rad)",
-    "damping_ratio": r"damping ratio $\zeta$",
-    "mesh_frequency": r"mesh frequency $\Omega_h$",
-    "contact_ratio": r"contact ratio $\varepsilon$",
-    "a": "$a$",
-    "b": "$b$",
-    "x": "displacement $X$",
-    "v": "velocity $X'$",
-    "section": "$X$ on the section",
-    "tau": r"time $\tau / T_h$ (mesh periods)",
-    "frequency": r"frequency / $\Omega_h$",
-    "exponent": r"largest exponent $\lambda_1$",
-}
-
 
 def motion_colour(motion: Motion) -> str:
     """The colour of a motion, whatever its impact state.

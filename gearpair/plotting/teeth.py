@@ -10,7 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from gearpair.plotting.style import BOUNDARY, INK, LABELS, new_axes
+from gearpair.plotting.style import BOUNDARY, INK, new_axes
+from gearpair.quantities import axis_label
 from gearpair.teeth.finite_elements import MEASURES, FiniteElementBody
 from gearpair.teeth.meshing import MeshStiffness
 from gearpair.teeth.spurpair import SpurGear
@@ -243,7 +244,7 @@ def mesh_curves(
             edges = np.concatenate([np.add(wave.edges, period) for period in range(n_periods)] + [[n_periods]])
             levels = np.tile(wave.levels, n_periods) * mesh.mean * factor
             ax.stairs(levels, edges, baseline=None, color=colour, linestyle="--", linewidth=1.0)
-    ax.set(xlabel=LABELS["tau"], ylabel=LABEL_STIFFNESS, xlim=(0.0, n_periods))
+    ax.set(xlabel=axis_label("tau"), ylabel=LABEL_STIFFNESS, xlim=(0.0, n_periods))
     ax.set_ylim(bottom=0.0)
     if len(meshes) > 1:
         ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=len(meshes))

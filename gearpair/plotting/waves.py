@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from gearpair.plotting.style import BOUNDARY, INK, LABELS, new_axes
+from gearpair.plotting.style import BOUNDARY, INK, new_axes
+from gearpair.quantities import axis_label
 from gearpair.stiffness import StiffnessWave
 
 
@@ -50,7 +51,7 @@ def stiffness_wave(
         )  # fmt: skip
     ax.axhline(1.0, color=BOUNDARY, linewidth=0.6, zorder=-1)
     top = max(1.0, *wave.levels)
-    ax.set(xlabel=LABELS["tau"], ylabel=r"stiffness $\bar k$", xlim=(0, n_periods))
+    ax.set(xlabel=axis_label("tau"), ylabel=axis_label("stiffness"), xlim=(0, n_periods))
     ax.set_ylim(0, max(1.12 * top, ax.get_ylim()[1]))
     return ax
 

@@ -10,13 +10,13 @@ import numpy as np
 
 from gearpair.motion.settling import transient_periods
 from gearpair.oscillator import Oscillator
+from gearpair.parameters import WAVE
 from gearpair.stiffness import StiffnessWave
 from gearpair.study.chapters import Chapter
 
 WORTH_TELLING = 3.0
 GRID, AXES = ("n_x", "n_v"), ("n_values", "n_fine", "n_reached", "n_speeds")
 SAMPLES = 9  # oscillators along an axis whose cost stands for all
-WAVE = ("contact_ratio", "a", "b", "reading")
 
 
 def work_ratio(chapter: Chapter, values: Mapping[str, Any]) -> float:
