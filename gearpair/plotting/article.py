@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -17,12 +18,14 @@ from gearpair.article.case.search import TOLERANCES
 from gearpair.article.case.trials import Ranked, Trial
 from gearpair.article.published import StiffnessRow
 from gearpair.article.readings import Hypothesis
-from gearpair.plotting.style import BACKLASH, BOUNDARY, INK, STYLE, motion_colour, new_axes
+from gearpair.plotting.style import BACKLASH, BOUNDARY, INK, STYLE, motion_colour, name_rows, new_axes, note
 from gearpair.quantities import QUANTITIES, axis_label
 
 
 def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax: Axes | None = None) -> Axes:
     """Mean and best score of every hypothesis, in their order.
+
+    A bar from the mean to the best score for each.
 
     Parameters
     ----------
@@ -30,12 +33,6 @@ def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax
         Of `gearpair.article.case.ranking`.
     marked : mapping of str to Hypothesis
         The ones to name.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-        With a bar from the mean to the best score for each.
 
     Examples
     --------
@@ -54,10 +51,8 @@ def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax
     for name, hypothesis in marked.items():
         for place, entry in zip(places, ranked, strict=True):
             if entry.hypothesis == hypothesis:
-                ax.annotate(
-                    name, (place, entry.best.total), xytext=(6, 8), textcoords="offset points", fontsize=8.5,
-                    arrowprops={"arrowstyle": "-", "color": BOUNDARY, "linewidth": 0.7},
-                )  # fmt: skip
+                arrow: dict[str, Any] = {"arrowstyle": "-", "color": BOUNDARY, "linewidth": 0.7}
+                note(ax, name, (float(place), entry.best.total), (6, 8), fontsize=8.5, arrowprops=arrow)
     ax.set(xlabel="place", ylabel="score", xlim=(0, len(ranked) + 1), ylim=(0.0, 1.0))
     ax.legend(loc="upper right")
     return ax
@@ -66,17 +61,12 @@ def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax
 def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = "") -> Axes:
     """Where each motion exists along a parameter, over the published ranges.
 
+    A row for each published motion: an outlined box where it is published, a dot where it was reached.
+
     Parameters
     ----------
     reached : Reached
         Of `gearpair.article.case.reached`.
-    ax : Axes, optional
-    title : str
-
-    Returns
-    -------
-    Axes
-        A row for each published motion: an outlined box where it is published, a dot where it was reached.
 
     Examples
     --------
@@ -88,37 +78,29 @@ def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = ""
     """
     motions = list(dict.fromkeys(published_motions(reached.parameter)))
     ax = new_axes(ax, 0.7 + 0.3 * len(motions))
-    values = reached.values
+    ranges = published.ranges(reached.parameter)
     for row, motion in enumerate(motions):
         colour = motion_colour(motion)
-        for stated in published.ranges(reached.parameter):
+        for stated in ranges:
             if stated.motion == motion:
                 width = stated.upper - stated.lower
                 ax.barh(row, width, left=stated.lower, height=0.8, color=colour, alpha=0.25, linewidth=0)
-        here = values[reached.has(motion)]
+        here = reached.values[reached.has(motion)]
         ax.plot(here, np.full(len(here), row), "o", markersize=3.5, color=colour)
-    ax.set_yticks(range(len(motions)), list(map(str, motions)))
-    ranges = published.ranges(reached.parameter)
-    ax.set(
-        xlabel=axis_label(reached.parameter), xlim=(ranges[0].lower, ranges[-1].upper), ylim=(len(motions) - 0.5, -0.5)
-    )
-    ax.set_title(title)
+    name_rows(ax, motions, reached.parameter)
+    ax.set(xlim=(ranges[0].lower, ranges[-1].upper), title=title)
     return ax
 
 
 def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], ax: Axes | None = None) -> Axes:
     """The share of both published axes that each phase between forcing and stiffness can account for.
 
+    One curve for each axis.
+
     Parameters
     ----------
     frequency, damping : sequence of Reached
         Along the two parameters, for the same hypotheses in the same order.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-        With one curve for each axis.
 
     Examples
     --------
@@ -184,7 +166,7 @@ def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = No
             ]
             steps = [n or 0 for n, distance in drawn if distance is not None]
             away = np.clip([distance for _, distance in drawn if distance is not None], -rim, rim)
-            ax.plot(steps, away, linestyle="", marker=marker, markersize=3, color=colour, label=seeding)
+            ax.plot(steps, away, marker, markersize=3, color=colour, label=seeding)
         symbol = QUANTITIES[boundary.parameter].in_tex
         ax.set(xscale="log", ylim=(-1.1 * rim, 1.1 * rim), title=f"{boundary.item}: ${symbol}$ = {boundary.value:g}")
         ax.set_xticks([20, 50, 100, 200, 400], ["20", "50", "100", "200", "400"])
@@ -225,10 +207,8 @@ def stiffness_trends(
     colours = ("#D55E00", INK, "#009E73")
     for ax, name in zip(axes, ("contact_ratio", "a", "b"), strict=True):
         for k, (label, rows) in enumerate({"the article": published, **computed}.items()):
-            ax.plot(
-                [row.teeth_wheel for row in rows], [getattr(row, name) for row in rows], marker="o" if k else "s",
-                markersize=5, color=colours[k % len(colours)], linestyle="-" if k else "--", label=label,
-            )  # fmt: skip
+            teeth, values = [row.teeth_wheel for row in rows], [getattr(row, name) for row in rows]
+            ax.plot(teeth, values, "o-" if k else "s--", markersize=5, color=colours[k % len(colours)], label=label)
         ax.set(xlabel="teeth of the gear $z_2$", title=axis_label(name))
         ax.set_xticks([row.teeth_wheel for row in published])
     return list(axes)
@@ -237,18 +217,14 @@ def stiffness_trends(
 def contact_ratio_cloud(ratios: ArrayLike, published: Sequence[StiffnessRow], ax: Axes | None = None) -> Axes:
     """Contact ratio of the first pair and its growth to the last: many tooth systems, and the article.
 
+    One dot for each system and a star for the article.
+
     Parameters
     ----------
     ratios : array_like, shape (n, m)
         Contact ratios of n tooth systems at the m pairs of the article.
     published : sequence of StiffnessRow
         Those m pairs.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-        With one dot for each system and a star for the article.
 
     Examples
     --------
@@ -260,22 +236,15 @@ def contact_ratio_cloud(ratios: ArrayLike, published: Sequence[StiffnessRow], ax
     ax = new_axes(ax, 3.2)
     values = np.asarray(ratios, dtype=float)
     first, last = published[0], published[-1]
-    ax.plot(
-        values[:, 0], values[:, -1] - values[:, 0], linestyle="", marker=".", markersize=3, markeredgewidth=0,
-        color=INK, alpha=0.45, rasterized=True,
-    )  # fmt: skip
-    ax.plot(
-        first.contact_ratio, last.contact_ratio - first.contact_ratio, linestyle="", marker="*", markersize=13,
-        color="#D55E00",
-    )  # fmt: skip
+    looks: dict[str, Any] = {"markersize": 3, "markeredgewidth": 0, "alpha": 0.45, "rasterized": True}
+    ax.plot(values[:, 0], values[:, -1] - values[:, 0], ".", color=INK, **looks)
+    ax.plot(first.contact_ratio, last.contact_ratio - first.contact_ratio, "*", markersize=13, color="#D55E00")
     handles = [
         Line2D([], [], linestyle="", marker="*", markersize=11, color="#D55E00", label="the article"),
         Line2D([], [], linestyle="", marker=".", markersize=6, color=INK, label="tooth systems that can run"),
     ]
     ax.legend(handles=handles, loc="upper right")
     ax.axhline(0.0, color=BOUNDARY, linewidth=0.6)
-    ax.set(
-        xlabel=rf"contact ratio at $z_2 = {first.teeth_wheel}$",
-        ylabel=rf"growth to $z_2 = {last.teeth_wheel}$",
-    )
+    ax.set_xlabel(rf"contact ratio at $z_2 = {first.teeth_wheel}$")
+    ax.set_ylabel(rf"growth to $z_2 = {last.teeth_wheel}$")
     return ax

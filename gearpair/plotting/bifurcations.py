@@ -26,6 +26,8 @@ def branches(
 ) -> Axes:
     """X on the section along branches of orbits: solid where stable, dashed where unstable, bifurcations marked.
 
+    One line for each run of stable or of unstable orbits of each section point of each branch.
+
     Parameters
     ----------
     found : iterable of Branch
@@ -36,11 +38,6 @@ def branches(
         The periods to draw; all when not given.
     markers : bool
         Mark folds (triangles), flips (circles) and grazings (diamonds).
-
-    Returns
-    -------
-    Axes
-        With one line for each run of stable or of unstable orbits of each section point of each branch.
 
     Examples
     --------
@@ -63,36 +60,31 @@ def branches(
                 ax.plot(branch.values, shown, color=colour, **style)
         for b in branch.bifurcations if markers else ():
             kinds.add(b.kind)
-            ax.plot(
-                b.value, b.x, marker=MARKERS[b.kind], markersize=3.6, color=colour, markeredgecolor="white",
-                markeredgewidth=0.5, linestyle="", zorder=5,
-            )  # fmt: skip
+            rim: dict[str, Any] = {"markeredgecolor": "white", "markeredgewidth": 0.5}
+            ax.plot(b.value, b.x, MARKERS[b.kind], markersize=3.6, color=colour, zorder=5, **rim)
         ax.set_xlabel(axis_label(branch.parameter))
     ax.set_ylabel(axis_label("section"))
-    handles = [Line2D([], [], marker=MARKERS[k], linestyle="", color="#555555", label=k) for k in MARKERS if k in kinds]
-    if handles:
-        _add_key(ax, handles)
+    _add_key(
+        ax, [Line2D([], [], marker=MARKERS[k], linestyle="", color="#555555", label=k) for k in MARKERS if k in kinds]
+    )
     return ax
 
 
 def _add_key(ax: Axes, handles: list[Line2D]) -> None:
     """A key inside the axes, beside the legend of motions that may stand above them."""
-    names = [str(handle.get_label()) for handle in handles]
-    ax.add_artist(
-        Legend(
-            ax, handles, names, loc="upper right", ncols=len(handles), framealpha=0.9, edgecolor="none", frameon=True
-        )
-    )
+    if handles:
+        names = [str(handle.get_label()) for handle in handles]
+        looks: dict[str, Any] = {"loc": "upper right", "framealpha": 0.9, "edgecolor": "none", "frameon": True}
+        ax.add_artist(Legend(ax, handles, names, ncols=len(handles), **looks))
 
 
 def _runs(stable: np.ndarray, wanted: bool) -> np.ndarray:
-    """Where orbits are as wanted, widened by one so that solid and dashed runs meet."""
+    """Where orbits are as wanted; those of unstable ones are widened by one, so that solid and dashed runs meet."""
     inside = stable == wanted
-    if wanted:
-        return inside
     widened = inside.copy()
-    widened[1:] |= inside[:-1]
-    widened[:-1] |= inside[1:]
+    if not wanted:
+        widened[1:] |= inside[:-1]
+        widened[:-1] |= inside[1:]
     return widened
 
 
@@ -100,6 +92,8 @@ def bifurcation_curves(
     curves: Iterable[BifurcationCurve], ax: Axes | None = None, *, colour: str | None = None
 ) -> Axes:
     """Curves of folds (solid), flips (dashed) and grazings (dotted) in the plane of two parameters.
+
+    One line for each curve.
 
     Parameters
     ----------
@@ -109,11 +103,6 @@ def bifurcation_curves(
         For example that of a `period_map`, to draw over it.
     colour : str, optional
         Of all curves; that of the orbit's period when not given.
-
-    Returns
-    -------
-    Axes
-        With one line for each curve.
 
     Examples
     --------
@@ -136,6 +125,5 @@ def bifurcation_curves(
     if colour is None:
         periods = sorted({curve.period for curve in drawn})
         handles += [Line2D([], [], color=motion_colour(m), label=str(m)) for m in map(periodic, periods)]
-    if handles:
-        _add_key(ax, handles)
+    _add_key(ax, handles)
     return ax

@@ -1,7 +1,8 @@
-"""Maps over two parameters by impact and by measure, and the shares of the attractors along one."""
+"""Maps over two parameters by motion, impact and measure, and the shares of the attractors along one."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import groupby
 from typing import Any
 
@@ -10,27 +11,21 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize, to_rgb
 
-from gearpair.motion.names import IMPACT_NAMES, Motion
-from gearpair.plotting.planes import IMPACT_COLOURS, name_colours
-from gearpair.plotting.style import add_motion_legend, motion_colour, new_axes
+from gearpair.motion.names import Motion, motions_of
+from gearpair.plotting.planes import IMPACT_COLOURS, impact_colours, name_colours
+from gearpair.plotting.style import add_motion_legend, motion_colour, new_axes, over_parameter
 from gearpair.quantities import axis_label
 
 
 def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """The impact state at each point of a grid of two parameters, the harsher the darker.
 
+    One image whose pixels are the grid's points.
+
     Parameters
     ----------
     result : xarray.Dataset
-        Of `gearpair.parameter_map` with two axes, evenly spaced: the first is drawn upwards, the second to the right.
-    ax : Axes, optional
-    legend : bool
-        Name the states above the axes.
-
-    Returns
-    -------
-    Axes
-        With one image whose pixels are the grid's points.
+        As for `period_map`.
 
     Examples
     --------
@@ -40,14 +35,39 @@ def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     ['no impact', 'single-sided']
     """
     states = result.impact_state.values
-    present = [state for state in IMPACT_COLOURS if np.any(states == state)]
-    colours = {state: to_rgb(IMPACT_COLOURS[state]) for state in present}
-    pixels = np.zeros((*states.shape, 3))
-    for state, colour in colours.items():
-        pixels[states == state] = colour
-    ax = _image(result, pixels, ax)
+    ax = _image(result, _pixels(states, IMPACT_COLOURS), ax)
     if legend:
-        name_colours(ax, {IMPACT_NAMES[state]: colour for state, colour in colours.items()})
+        name_colours(ax, impact_colours(states))
+    return ax
+
+
+def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """The motion at each point of a grid of two parameters, in the colours of all figures.
+
+    One image whose pixels are the grid's points.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        Of `gearpair.parameter_map` with two axes, evenly spaced: the first is drawn upwards, the second to the right.
+
+    Raises
+    ------
+    ValueError
+        For a map with another number of axes.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> grid = gp.parameter_map(gp.Oscillator(), {"damping_ratio": [0.05, 0.1], "mesh_frequency": [0.6, 0.7, 0.8]})
+    >>> period_map(grid).images[0].get_size()
+    (2, 3)
+    """
+    motions = motions_of(result)
+    present = set(motions.ravel())
+    ax = _image(result, _pixels(motions, {motion: motion_colour(motion) for motion in present}), ax)
+    if legend:
+        add_motion_legend(ax, present)
     return ax
 
 
@@ -61,22 +81,18 @@ def quantity_map(
 ) -> Axes:
     """A quantity of the motion at each point of a grid of two parameters: dark where it is small.
 
+    A colour bar beside it.
+
     Parameters
     ----------
     result : xarray.Dataset
         Of `gearpair.parameter_map` with two axes (or of `gearpair.basins`), evenly spaced.
     quantity : str
         One of its variables.
-    ax : Axes, optional
     largest : float, optional
         Where the colours end; the largest value when not given.
     logarithmic : bool
         Spread the colours over the logarithm.
-
-    Returns
-    -------
-    Axes
-        With a colour bar beside it.
 
     Examples
     --------
@@ -95,6 +111,13 @@ def quantity_map(
     return ax
 
 
+def _pixels(values: np.ndarray, colours: Mapping[Any, str]) -> np.ndarray:
+    pixels = np.zeros((*values.shape, 3))
+    for value, colour in colours.items():
+        pixels[values == value] = to_rgb(colour)
+    return pixels
+
+
 def _image(result: xr.Dataset, pixels: np.ndarray, ax: Axes | None, **colours: Any) -> Axes:
     dims = [str(dim) for dim in result.status.dims]
     if len(dims) != 2:
@@ -102,9 +125,8 @@ def _image(result: xr.Dataset, pixels: np.ndarray, ax: Axes | None, **colours: A
     ax = new_axes(ax, 4.6)
     vertical, horizontal = dims
     (left, right), (low, high) = (_ends(result[name].values) for name in (horizontal, vertical))
-    ax.imshow(
-        pixels, origin="lower", extent=(left, right, low, high), aspect="auto", interpolation="nearest", **colours
-    )  # fmt: skip
+    extent = (left, right, low, high)
+    ax.imshow(pixels, origin="lower", extent=extent, aspect="auto", interpolation="nearest", **colours)
     names = ("start_v", "start_x") if dims == ["v", "x"] else dims
     ax.set(xlabel=axis_label(names[1]), ylabel=axis_label(names[0]))
     return ax
@@ -119,19 +141,13 @@ def _ends(values: np.ndarray) -> tuple[float, float]:
 def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """The shares of the attractors along a parameter, stacked, with a triangle at each tipping point.
 
+    One filled step for each attractor, cut where its kind of motion changes and coloured by it, and a triangle at
+    the top where one has tipped to another.
+
     Parameters
     ----------
     result : xarray.Dataset
         Of `gearpair.ensembles.continue_attractors`.
-    ax : Axes, optional
-    legend : bool
-        Name the kinds of motion above the axes.
-
-    Returns
-    -------
-    Axes
-        With one filled step for each attractor, cut where its kind of motion changes and coloured by it, and a triangle
-        at the top where one has tipped to another.
 
     Examples
     --------
@@ -165,7 +181,7 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
         below = above
     for i in np.flatnonzero(np.any(result.tips_to.values != -1, axis=1)):
         ax.plot(between[i - 1], 1.0, marker="v", markersize=4, color="black", clip_on=False, label="tipping point")
-    ax.set(xlabel=axis_label(parameter), ylabel=axis_label("share"), xlim=(values.min(), values.max()), ylim=(0.0, 1.0))
+    over_parameter(ax, parameter, values, axis_label("share"), ylim=(0.0, 1.0))
     if legend:
         add_motion_legend(ax, present)
     return ax

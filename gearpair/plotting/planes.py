@@ -4,21 +4,24 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.colors import ListedColormap, to_rgb
+from matplotlib.legend import Legend
 from matplotlib.patches import Patch
 
 from gearpair.ensembles.planes import attractor_motions
 from gearpair.motion.impacts import ImpactState
-from gearpair.motion.names import IMPACT_NAMES, Motion, motions_of
+from gearpair.motion.names import IMPACT_NAMES, Motion
 from gearpair.motion.steady import SteadyState
-from gearpair.plotting.diagrams import shade_backlash
-from gearpair.plotting.style import add_motion_legend, motion_colour, new_axes
+from gearpair.plotting.style import add_motion_legend, motion_colour, new_axes, shade_backlash
 from gearpair.quantities import axis_label
 
+Colour = tuple[float, float, float]
 MOST_NAMED = 8  # attractors that a legend names one by one
 
 # The harsher the darker.
@@ -33,7 +36,7 @@ IMPACT_COLOURS: Mapping[str, str] = {
 }
 
 
-def attractor_colours(result: xr.Dataset) -> list[tuple[float, float, float]]:
+def attractor_colours(result: xr.Dataset) -> list[Colour]:
     """One colour for each attractor of `gearpair.basins`: its motion's, paler for the second of a kind and so on."""
     colours, seen = [], Counter[Motion]()
     for motion in attractor_motions(result):
@@ -51,13 +54,8 @@ def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -
     ----------
     result : xarray.Dataset
         Of `gearpair.basins`.
-    ax : Axes, optional
     legend : bool
         Name the attractors above the axes; where they are many, their colours.
-
-    Returns
-    -------
-    Axes
 
     Examples
     --------
@@ -72,7 +70,7 @@ def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -
     if legend and len(motions) > MOST_NAMED:
         add_motion_legend(ax, motions)
     elif legend:
-        strongest: dict[str, tuple[float, float, float]] = {}
+        strongest: dict[str, Colour] = {}
         for motion, colour in zip(motions, colours, strict=True):
             strongest.setdefault(str(motion), colour)
         name_colours(ax, strongest)
@@ -86,15 +84,8 @@ def impact_states(result: xr.Dataset, ax: Axes | None = None, *, worst: bool = F
     ----------
     result : xarray.Dataset
         Of `gearpair.basins`.
-    ax : Axes, optional
     worst : bool
         The worst state of the whole way instead, from the start on.
-    legend : bool
-        Name the states above the axes.
-
-    Returns
-    -------
-    Axes
 
     Examples
     --------
@@ -104,46 +95,47 @@ def impact_states(result: xr.Dataset, ax: Axes | None = None, *, worst: bool = F
     ['single-sided', 'double-sided']
     """
     ax = new_axes(ax, 5.0)
-    states = list(IMPACT_COLOURS)
-    names = (result.worst_impact_state if worst else result.impact_state).values
-    numbers = np.zeros(names.shape, int)
-    for i, state in enumerate(states):
-        numbers[names == state] = i
+    states = (result.worst_impact_state if worst else result.impact_state).values
+    numbers = np.zeros(states.shape, int)
+    for i, state in enumerate(IMPACT_COLOURS):
+        numbers[states == state] = i
     _map(ax, result, numbers, [to_rgb(colour) for colour in IMPACT_COLOURS.values()])
     if legend:
-        present = [state for i, state in enumerate(states) if np.any(numbers == i)]
-        name_colours(ax, {IMPACT_NAMES[state]: to_rgb(IMPACT_COLOURS[state]) for state in present})
+        name_colours(ax, impact_colours(states))
     return ax
 
 
-def _map(ax: Axes, result: xr.Dataset, numbers: np.ndarray, colours: Sequence[tuple[float, float, float]]) -> None:
-    ax.pcolormesh(
-        result.x.values, result.v.values, numbers, cmap=ListedColormap(list(colours)), vmin=-0.5,
-        vmax=len(colours) - 0.5, shading="nearest", rasterized=True,
-    )  # fmt: skip
+def _map(ax: Axes, result: xr.Dataset, numbers: np.ndarray, colours: Sequence[Colour]) -> None:
+    _plane(ax, result, numbers, cmap=ListedColormap(list(colours)), vmin=-0.5, vmax=len(colours) - 0.5)
+
+
+def _plane(ax: Axes, result: xr.Dataset, values: np.ndarray, **colours: Any) -> QuadMesh:
     ax.set(xlabel=axis_label("start_x"), ylabel=axis_label("start_v"))
+    return ax.pcolormesh(result.x.values, result.v.values, values, shading="nearest", rasterized=True, **colours)
 
 
-def name_colours(ax: Axes, colours: Mapping[str, tuple[float, float, float]], columns: int = 1) -> None:
-    """A legend of coloured patches above the axes."""
-    handles = [
-        Patch(facecolor=colour, edgecolor="#999999", linewidth=0.5, label=name) for name, colour in colours.items()
-    ]
-    ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, borderaxespad=0.3)
+def impact_colours(states: np.ndarray) -> dict[str, Colour]:
+    """The colours of the impact states that are present, by their names in words."""
+    present = set(states.ravel())
+    return {IMPACT_NAMES[state]: to_rgb(colour) for state, colour in IMPACT_COLOURS.items() if state in present}
+
+
+def name_colours(ax: Axes, colours: Mapping[str, Colour], **place: Any) -> Legend:
+    """A legend of coloured patches, above the axes or where `place` says."""
+    handles = [Patch(facecolor=each, edgecolor="#999999", linewidth=0.5, label=name) for name, each in colours.items()]
+    place = place or {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.3}
+    return ax.legend(handles=handles, **place)
 
 
 def attractor_points(states: Sequence[SteadyState], ax: Axes) -> Axes:
     """The section points of periodic attractors, as white-rimmed dots over a map of their basins.
 
+    One line of dots for each periodic state.
+
     Parameters
     ----------
     states : sequence of SteadyState
     ax : Axes
-
-    Returns
-    -------
-    Axes
-        With one line of dots for each periodic state.
 
     Examples
     --------
@@ -156,9 +148,8 @@ def attractor_points(states: Sequence[SteadyState], ax: Axes) -> Axes:
     for state in states:
         if state.period:
             ax.plot(
-                state.points[:, 0], state.points[:, 1], linestyle="", marker="o", markersize=5.5,
-                label=str(state.motion.kind), markerfacecolor=motion_colour(state.motion), markeredgecolor="white",
-                markeredgewidth=1.0,
+                *state.points.T, "o", markersize=5.5, markerfacecolor=motion_colour(state.motion),
+                markeredgecolor="white", markeredgewidth=1.0, label=str(state.motion.kind),
             )  # fmt: skip
     return ax
 
@@ -166,18 +157,14 @@ def attractor_points(states: Sequence[SteadyState], ax: Axes) -> Axes:
 def finite_exponents(result: xr.Dataset, ax: Axes | None = None, *, largest: float | None = None) -> Axes:
     """The largest Lyapunov exponent from each start: dark where neighbours part, pale where they stay together.
 
+    A colour bar beside it.
+
     Parameters
     ----------
     result : xarray.Dataset
         Of `gearpair.basins`.
-    ax : Axes, optional
     largest : float, optional
         Where the colours end.
-
-    Returns
-    -------
-    Axes
-        With a colour bar beside it.
 
     Examples
     --------
@@ -187,59 +174,7 @@ def finite_exponents(result: xr.Dataset, ax: Axes | None = None, *, largest: flo
     ('initial displacement $X_0$', 2)
     """
     ax = new_axes(ax, 5.0)
-    shown = ax.pcolormesh(
-        result.x.values, result.v.values, result.exponent.values, cmap="cividis", vmin=0.0, vmax=largest,
-        shading="nearest", rasterized=True,
-    )  # fmt: skip
+    shown = _plane(ax, result, result.exponent.values, cmap="cividis", vmin=0.0, vmax=largest)
     shade_backlash(ax, horizontal=False)
-    ax.figure.colorbar(shown, ax=ax, label=r"largest exponent $\lambda_1$", pad=0.01)
-    ax.set(xlabel=axis_label("start_x"), ylabel=axis_label("start_v"))
-    return ax
-
-
-def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
-    """The motion at each point of a grid of two parameters, in the colours of all figures.
-
-    Parameters
-    ----------
-    result : xarray.Dataset
-        Of `gearpair.parameter_map` with two axes, evenly spaced: the first is drawn upwards, the second to the right.
-    ax : Axes, optional
-    legend : bool
-        Name the colours above the axes.
-
-    Returns
-    -------
-    Axes
-        With one image whose pixels are the grid's points.
-
-    Raises
-    ------
-    ValueError
-        For a map with another number of axes.
-
-    Examples
-    --------
-    >>> import gearpair as gp
-    >>> grid = gp.parameter_map(gp.Oscillator(), {"damping_ratio": [0.05, 0.1], "mesh_frequency": [0.6, 0.7, 0.8]})
-    >>> period_map(grid).images[0].get_size()
-    (2, 3)
-    """
-    motions = motions_of(result)
-    if motions.ndim != 2:
-        raise ValueError(
-            f"result must be a map over two parameters, got {motions.ndim}: {', '.join(result.status.dims)}"
-        )
-    ax = new_axes(ax, 4.6)
-    vertical, horizontal = (str(dim) for dim in result.status.dims)
-    present = set(motions.ravel())
-    colours = {motion: to_rgb(motion_colour(motion)) for motion in present}
-    pixels = np.array([[colours[motion] for motion in row] for row in motions])
-    x, y = result[horizontal].values, result[vertical].values
-    half_x, half_y = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
-    extent = (x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y)
-    ax.imshow(pixels, origin="lower", extent=extent, aspect="auto", interpolation="nearest")
-    ax.set(xlabel=axis_label(horizontal), ylabel=axis_label(vertical))
-    if legend:
-        add_motion_legend(ax, present)
+    ax.figure.colorbar(shown, ax=ax, label=axis_label("exponent"), pad=0.01)
     return ax
