@@ -16,7 +16,6 @@ from gearpair.ensembles.stores import decoded
 from gearpair.ensembles.sweeps import parameter_map, sweep
 from gearpair.ensembles.tipping import continue_attractors
 from gearpair.ensembles.uncertainty import BasinEntropy, UncertaintyExponent, basin_entropy, uncertainty_exponent
-from gearpair.quantities import symbol
 
 __all__ = [
     "BasinEntropy",
@@ -39,6 +38,5 @@ __all__ = [
     "range_of",
     "representatives",
     "sweep",
-    "symbol",
     "uncertainty_exponent",
 ]

@@ -2,7 +2,9 @@
 
 What they share is said here once. `ax` is what to draw on, a new figure in the book's style without it; `title` stands
 above the picture, or inside it where the legend is above; `legend` is whether the colours are named; `colour` and
-`label` are those of the curve. Under the first sentence of each stands what its Axes holds.
+`label` are those of the curve. A first parameter that is not described is what its name says: a `sweep` of
+`gearpair.sweep`, a `chart` of `gearpair.design.speed_chart`, a plane of `gearpair.basins`, a grid of
+`gearpair.parameter_map`, shares of `gearpair.ensembles`. Under the first sentence of each stands what its Axes holds.
 
 Colours say the same everywhere (`MOTION_COLOURS`): one for each period, dark grey for chaos; they stay apart for
 colour-blind readers. Nothing is set at import: ``plt.style.use(STYLE)``, or ``with plt.style.context(STYLE):``, gives
@@ -19,6 +21,7 @@ from gearpair.plotting.article import (
 )
 from gearpair.plotting.bifurcations import bifurcation_curves, branches
 from gearpair.plotting.diagrams import (
+    attractor_shares,
     bifurcation_diagram,
     exponents,
     extremes,
@@ -27,7 +30,15 @@ from gearpair.plotting.diagrams import (
     range_lanes,
     range_strips,
 )
-from gearpair.plotting.maps import attractor_shares, impact_map, period_map, quantity_map
+from gearpair.plotting.maps import (
+    attractor_points,
+    basins,
+    finite_exponents,
+    impact_map,
+    impact_states,
+    period_map,
+    quantity_map,
+)
 from gearpair.plotting.methods import (
     certificate,
     certified_steps,
@@ -37,7 +48,6 @@ from gearpair.plotting.methods import (
     work_precision,
 )
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
-from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states
 from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, rattle, tooth_loads, tornado
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.teeth import (

@@ -29,8 +29,6 @@ def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax
 
     Parameters
     ----------
-    ranked : sequence of Ranked
-        Of `gearpair.article.case.ranking`.
     marked : mapping of str to Hypothesis
         The ones to name.
 
@@ -63,11 +61,6 @@ def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = ""
 
     A row for each published motion: an outlined box where it is published, a dot where it was reached.
 
-    Parameters
-    ----------
-    reached : Reached
-        Of `gearpair.article.case.reached`.
-
     Examples
     --------
     >>> from gearpair.article import SWAPPED
@@ -94,8 +87,6 @@ def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = ""
 
 def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], ax: Axes | None = None) -> Axes:
     """The share of both published axes that each phase between forcing and stiffness can account for.
-
-    One curve for each axis.
 
     Parameters
     ----------
@@ -125,18 +116,15 @@ def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], 
 def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = None) -> list[Axes]:
     """How far each published boundary is from the drawn one, against the steps a mesh period of fixed-step diagrams.
 
+    One for each published boundary, with one line of dots for each way to sweep, and the tolerance as a band. Dots on
+    the rim lie farther out; what a diagram does not have is not drawn.
+
     Parameters
     ----------
     trials : sequence of Trial
         Of `gearpair.article.case.run_trials`, with integrators of fixed steps.
     axes : sequence of eight Axes, optional
         A new figure without them.
-
-    Returns
-    -------
-    list of Axes
-        One for each published boundary, with one line of dots for each way to sweep, and the tolerance as a band. Dots
-        on the rim lie farther out; what a diagram does not have is not drawn.
 
     Examples
     --------
@@ -184,17 +172,14 @@ def stiffness_trends(
 ) -> list[Axes]:
     """Contact ratio, a and b against the gear's teeth: what is published and what is computed.
 
+    Each with one line for the article, named first, and one for each entry of `computed`.
+
     Parameters
     ----------
     published : sequence of StiffnessRow
     computed : mapping of str to sequence of StiffnessRow
         By the name for the legend.
     axes : sequence of three Axes
-
-    Returns
-    -------
-    list of Axes
-        Each with one line for the article, named first, and one for each entry of `computed`.
 
     Examples
     --------

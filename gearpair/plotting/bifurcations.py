@@ -93,8 +93,6 @@ def bifurcation_curves(
 ) -> Axes:
     """Curves of folds (solid), flips (dashed) and grazings (dotted) in the plane of two parameters.
 
-    One line for each curve.
-
     Parameters
     ----------
     curves : iterable of BifurcationCurve

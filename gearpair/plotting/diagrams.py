@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from itertools import groupby
 
 import numpy as np
 import xarray as xr
@@ -49,8 +50,6 @@ def bifurcation_diagram(
 
     Parameters
     ----------
-    sweep : xarray.Dataset
-        Of `gearpair.sweep`.
     size : float
         Diameter of a dot in points; those of chaotic motions are smaller.
     reach : float
@@ -133,11 +132,6 @@ def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) 
 
     One line of dots each for the smallest and the largest X of every kind of motion.
 
-    Parameters
-    ----------
-    sweep : xarray.Dataset
-        Of `gearpair.sweep`.
-
     Examples
     --------
     >>> import gearpair as gp
@@ -161,11 +155,6 @@ def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) 
 
 def exponents(sweep: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, label: str | None = None) -> Axes:
     """The largest Lyapunov exponent along a sweep, with its standard error and the line at zero.
-
-    Parameters
-    ----------
-    sweep : xarray.Dataset
-        Of `gearpair.sweep`.
 
     Examples
     --------
@@ -250,8 +239,6 @@ def range_lanes(
 ) -> Axes:
     """One lane for each motion with its ranges from several sources under one another; coexistence shows as overlap.
 
-    One bar for each range.
-
     Parameters
     ----------
     sources : mapping of str to ranges
@@ -295,11 +282,6 @@ def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
 
     One filled band, labelled with its name, for each motion.
 
-    Parameters
-    ----------
-    shares : xarray.Dataset
-        Of `gearpair.ensembles.motion_shares`.
-
     Examples
     --------
     >>> import gearpair as gp
@@ -316,4 +298,48 @@ def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
     over_parameter(ax, parameter, values, axis_label("share"), ylim=(0, 1))
     if legend:
         add_motion_legend(ax, motions)
+    return ax
+
+
+def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """The shares of the attractors along a parameter, stacked, with a triangle at each tipping point.
+
+    One filled step for each attractor, cut where its kind of motion changes and coloured by it, and a triangle at
+    the top where one has tipped to another.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = attractor_shares(gp.ensembles.continue_attractors(gp.Oscillator(), "damping_ratio", [0.15, 0.16], n=50))
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['period 1']
+    """
+    ax = new_axes(ax, 3.6)
+    parameter = str(result.share.dims[0])
+    values = result[parameter].values
+    between = 0.5 * (values[1:] + values[:-1])
+    edges = np.concatenate([values[:1], between, values[-1:]])
+    below = np.zeros(len(values))
+    present = set()
+    for number in range(result.sizes["attractor"]):
+        own = result.isel(attractor=number)
+        above = below + np.nan_to_num(own.share.values)
+        columns = own.attractor_status.values, own.attractor_period.values, above > below
+        kinds = [Motion(str(a), int(p) or None) if seen else None for a, p, seen in zip(*columns, strict=True)]
+        for kind, group in groupby(range(len(values)), kinds.__getitem__):
+            if kind is None:
+                continue
+            run = list(group)
+            steps = np.repeat(edges[run[0] : run[-1] + 2], 2)[1:-1]
+            ax.fill_between(
+                steps, np.repeat(below[run], 2), np.repeat(above[run], 2), facecolor=motion_colour(kind),
+                edgecolor="white", linewidth=0.4, label=str(kind),
+            )  # fmt: skip
+            present.add(kind)
+        below = above
+    for i in np.flatnonzero(np.any(result.tips_to.values != -1, axis=1)):
+        ax.plot(between[i - 1], 1.0, marker="v", markersize=4, color="black", clip_on=False, label="tipping point")
+    over_parameter(ax, parameter, values, axis_label("share"), ylim=(0.0, 1.0))
+    if legend:
+        add_motion_legend(ax, present)
     return ax

@@ -29,9 +29,7 @@ BESIDE: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "color": BOUNDA
 
 
 def work_precision(measured: Sequence[Precision], ax: Axes | None = None) -> Axes:
-    """Time per mesh period against the one-period error, a line for each method.
-
-    Logarithmic, with one line for each method.
+    """Time per mesh period against the one-period error, both logarithmic, a line for each method.
 
     Parameters
     ----------
@@ -106,10 +104,6 @@ def certificate(segment: Segment | None, ax: Axes | None = None, *, legend: bool
 
     Lines labelled ``"motion"`` and ``"Bézier points"``, and ``"crossing"`` where there is one.
 
-    Parameters
-    ----------
-    segment : Segment or None
-
     Examples
     --------
     >>> import gearpair as gp
@@ -155,12 +149,6 @@ def _show_boundaries(segment: Segment, ax: Axes, low: float, high: float) -> Non
 def interpolation_error(segment: Segment | None, ax: Axes | None = None) -> Axes:
     """The motion less its cubic Hermite interpolant, between the bounds.
 
-    One line labelled ``"motion - cubic"``.
-
-    Parameters
-    ----------
-    segment : Segment or None
-
     Examples
     --------
     >>> import gearpair as gp
@@ -188,10 +176,6 @@ def certified_steps(segment: Segment | None, ax: Axes | None = None, *, legend: 
     """The distance to the boundary that limits the steps, and the parabola under it that certifies each step.
 
     A line labelled ``"distance"``, one line for each parabola, and a dot where each step starts.
-
-    Parameters
-    ----------
-    segment : Segment or None
 
     Examples
     --------
@@ -225,14 +209,7 @@ def certified_steps(segment: Segment | None, ax: Axes | None = None, *, legend: 
 
 
 def step_convergence(segment: Segment | None, ax: Axes | None = None) -> Axes:
-    """The distance left at each certified step towards a crossing.
-
-    Logarithmic, with one line labelled ``"distance"``.
-
-    Parameters
-    ----------
-    segment : Segment or None
-        With a crossing.
+    """The distance left, on a logarithmic scale, at each certified step of a segment with a crossing.
 
     Examples
     --------

@@ -31,7 +31,6 @@ def time_history(
 
     Parameters
     ----------
-    motion : Trajectory
     n_periods : int, optional
         Mesh periods shown, from the first; all without it.
     impacts : bool
@@ -105,7 +104,6 @@ def poincare_section(
 
     Parameters
     ----------
-    motion : Trajectory
     size : float, optional
         Diameter of a dot in points; chosen by the number of points without it.
 
@@ -132,7 +130,6 @@ def spectrum(
 
     Parameters
     ----------
-    lines : Spectrum
     period : int, optional
         In mesh periods, where the motion is periodic: then lines are drawn, otherwise a curve.
     highest : float
@@ -174,11 +171,6 @@ def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: s
     title : str
         Stands above the first.
 
-    Returns
-    -------
-    list of Axes
-        The four, in that order.
-
     Examples
     --------
     >>> import gearpair as gp
@@ -211,10 +203,6 @@ def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequen
         By name, as `gearpair.ensembles.representatives` gives them.
     parameter : str
         Whose value is told beside the name.
-
-    Returns
-    -------
-    Figure
 
     Raises
     ------

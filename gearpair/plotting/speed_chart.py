@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 
 from gearpair.design import IdleRattle, IsoDynamicFactor
 from gearpair.design.sensitivities import OUTCOMES
-from gearpair.plotting.planes import IMPACT_COLOURS, impact_colours, name_colours
+from gearpair.plotting.maps import IMPACT_COLOURS, impact_colours, name_colours
 from gearpair.plotting.style import INK, new_axes, note, over_parameter
 from gearpair.quantities import axis_label
 
@@ -41,8 +41,6 @@ def dynamic_factors(
 
     Parameters
     ----------
-    chart : xarray.Dataset
-        Of `gearpair.design.speed_chart`.
     iso : IsoDynamicFactor, optional
         Drawn in grey beside the linear response.
     jumps : bool
@@ -143,13 +141,7 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]
 
     Parameters
     ----------
-    chart : xarray.Dataset
-        Of `gearpair.design.speed_chart`.
     axes : tuple of two Axes
-
-    Returns
-    -------
-    tuple of two Axes
 
     Examples
     --------
@@ -169,8 +161,7 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]
         left.plot(speed, chosen.dte_rms.values, color=INK, linestyle=style, label=f"run {run}")
         right.plot(speed, chosen.impact_velocity.values, color=INK, linestyle=style, label=f"run {run}")
     for ax, shown in zip(axes, ("dte_rms", "impact_velocity"), strict=True):
-        over_parameter(ax, "speed", speed, axis_label(shown))
-        ax.set_ylim(bottom=0.0)
+        over_parameter(ax, "speed", speed, axis_label(shown), ylim=(0.0, None))
     left.legend()
     return axes
 
@@ -182,8 +173,6 @@ def tornado(
 
     Parameters
     ----------
-    found : xarray.Dataset
-        Of `gearpair.design.sensitivity`.
     outcome : {"dynamic_factor", "mesh_force", "time_apart", "impact_range"}
     sort_by : str, optional
         The outcome that the bars are sorted by, `outcome` itself when not given.
@@ -223,10 +212,6 @@ def tornado(
 def rattle(found: IdleRattle, ax: Axes | None = None) -> Axes:
     """Impacts of an idle gear over the speed, and where its inertia torque exceeds the drag.
 
-    Parameters
-    ----------
-    found : IdleRattle
-
     Examples
     --------
     >>> import gearpair as gp
@@ -238,8 +223,7 @@ def rattle(found: IdleRattle, ax: Axes | None = None) -> Axes:
     """
     ax = new_axes(ax, 2.8)
     ax.plot(found.speed_rpm, found.impact_velocity, color=INK)
-    over_parameter(ax, "speed", found.speed_rpm, axis_label("impact_velocity"))
-    ax.set_ylim(bottom=0.0)
+    over_parameter(ax, "speed", found.speed_rpm, axis_label("impact_velocity"), ylim=(0.0, None))
     quiet = found.rattle_ratio < 1.0
     if quiet.any() and not quiet.all():
         onset = float(np.interp(1.0, found.rattle_ratio, found.speed_rpm))

@@ -68,7 +68,6 @@ def tooth_outlines(
 
     Parameters
     ----------
-    gear : SpurGear
     roots : sequence of str
         As `ToothProfile` knows them; the first is filled.
 
@@ -152,12 +151,6 @@ def _along_contact(mesh: MeshStiffness, ax: Axes, ylabel: str) -> None:
 
 def pair_stiffness(mesh: MeshStiffness, ax: Axes | None = None, *, colour: str = INK, label: str | None = None) -> Axes:
     """Stiffness of one pair of teeth alone along its path of contact.
-
-    In N per millimetre of face width and micrometre.
-
-    Parameters
-    ----------
-    mesh : MeshStiffness
 
     Examples
     --------
@@ -255,6 +248,8 @@ def load_shares(
 def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Sequence[Axes]) -> list[Axes]:
     """Compliance of one tooth and its gear body: the fast curve, finite elements, and how far apart they are.
 
+    The first has the curve and one line of points for each measure, the second one line for each measure.
+
     Parameters
     ----------
     body : FiniteElementBody
@@ -262,11 +257,6 @@ def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Seq
         Of the body's pair.
     axes : sequence of two Axes
         For the compliance, times E and face width, and for the deviation of the curve in percent.
-
-    Returns
-    -------
-    list of Axes
-        The first has the curve and one line of points for each measure, the second one line for each measure.
 
     Examples
     --------

@@ -21,15 +21,6 @@ def stiffness_wave(
 ) -> Axes:
     """The staircase over some mesh periods, and its mean as a dashed line.
 
-    Parameters
-    ----------
-    wave : StiffnessWave
-    n_periods : int
-    colour, label : str
-        Of the staircase.
-    mean : bool
-        Draw the mean.
-
     Examples
     --------
     >>> stiffness_wave(StiffnessWave.rectangular()).texts[0].get_text()
@@ -58,7 +49,6 @@ def harmonics(
 
     Parameters
     ----------
-    wave : StiffnessWave
     n : int
         The highest harmonic shown.
     offset : float
