@@ -7,6 +7,7 @@ from gearpair.design.loads import MEASURES as LOADS
 from gearpair.design.sensitivities import OUTCOMES
 from gearpair.motion.measures import MEASURES
 from gearpair.quantities import QUANTITIES, ROWS, attributes, axis_label
+from tests.support import ROOT
 
 
 def test_no_quantity_has_two_rows():
@@ -32,3 +33,9 @@ def test_units_are_told_where_there_are_any():
     assert axis_label("damping_ratio") == r"damping ratio $\zeta$"
     assert attributes("attractor_period") == attributes("period")
     assert axis_label("of no quantity") == "of no quantity"
+
+
+def test_the_book_s_table_of_symbols_says_the_same():
+    rows = [line for line in (ROOT / "book" / "notation.md").read_text(encoding="utf-8").splitlines() if "|" in line]
+    for name in (*Oscillator().parameters, "x_min", "x_max"):
+        assert any(f"`{name}`" in row and QUANTITIES[name].in_tex in row for row in rows), name
