@@ -25,7 +25,7 @@ from gearpair.plotting.style import (
     note,
     over_parameter,
     shade_backlash,
-)  # fmt: skip
+)
 from gearpair.quantities import axis_label
 
 LETTER = 0.0115  # share of the axis that a letter of a bar's name takes

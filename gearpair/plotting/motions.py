@@ -61,13 +61,10 @@ def _first_periods(motion: Trajectory, n_periods: int | None) -> tuple[int, np.n
 
 
 def _contact_dots(ax: Axes, across: np.ndarray, up: np.ndarray, colour: str) -> None:
-    looks: dict[str, Any] = {
-        "markersize": 3.2,
-        "markerfacecolor": "white",
-        "markeredgecolor": colour,
-        "markeredgewidth": 0.9,
-    }
-    ax.plot(across.astype(float), up.astype(float), "o", label="contact made", **looks)
+    ax.plot(
+        across.astype(float), up.astype(float), "o", markersize=3.2, markerfacecolor="white", markeredgecolor=colour,
+        markeredgewidth=0.9, label="contact made",
+    )  # fmt: skip
 
 
 def phase_portrait(

@@ -127,13 +127,9 @@ def _strips(ax: Axes, chart: xr.Dataset) -> None:
             zorder=5,
         )  # fmt: skip
     present = impact_colours(chart.impact_state.sel(run=["up", "down"]).values)
-    place: dict[str, Any] = {
-        "loc": "upper right",
-        "bbox_to_anchor": (1.0, 1.0 - 2 * STRIP),
-        "fontsize": 7.5,
-        "ncols": len(present),
-    }
-    ax.add_artist(name_colours(ax, present, **place))
+    under = (1.0, 1.0 - 2 * STRIP)
+    key = name_colours(ax, present, loc="upper right", bbox_to_anchor=under, fontsize=7.5, ncols=len(present))
+    ax.add_artist(key)
 
 
 def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]:
