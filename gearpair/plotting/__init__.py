@@ -2,9 +2,9 @@
 
 What they share is said here once. `ax` is what to draw on, a new figure in the book's style without it; `title` stands
 above the picture, or inside it where the legend is above; `legend` is whether the colours are named; `colour` and
-`label` are those of the curve. A first parameter that is not described is what its name says: a `sweep` of
-`gearpair.sweep`, a `chart` of `gearpair.design.speed_chart`, a plane of `gearpair.basins`, a grid of
-`gearpair.parameter_map`, shares of `gearpair.ensembles`. Under the first sentence of each stands what its Axes holds.
+`label` are those of the curve. A result that is not described is made as the example shows: a `sweep` by
+`gearpair.sweep`, a plane by `gearpair.basins`, a grid by `gearpair.parameter_map`, a `chart` by
+`gearpair.design.speed_chart`. Under the first sentence of each stands what its Axes holds.
 
 Colours say the same everywhere (`MOTION_COLOURS`): one for each period, dark grey for chaos; they stay apart for
 colour-blind readers. Nothing is set at import: ``plt.style.use(STYLE)``, or ``with plt.style.context(STYLE):``, gives

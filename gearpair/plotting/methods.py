@@ -1,4 +1,7 @@
-"""The method: what accuracy costs, how a step is certified, and what an integrator draws."""
+"""The method: what accuracy costs, how a step is certified, and what an integrator draws.
+
+A segment that was not met, None, gives an Axes that says so.
+"""
 
 from __future__ import annotations
 
@@ -100,7 +103,7 @@ def drawn_diagram(
 
 
 def certificate(segment: Segment | None, ax: Axes | None = None, *, legend: bool = True) -> Axes:
-    """A segment with its Bézier points, their hull and the boundaries in sight.
+    """A segment with its Bézier points, their hull and the boundaries in sight; that none was met, for None.
 
     Lines labelled ``"motion"`` and ``"Bézier points"``, and ``"crossing"`` where there is one.
 
