@@ -10,13 +10,12 @@ import numpy as np
 
 from gearpair.motion.settling import transient_periods
 from gearpair.oscillator import Oscillator
-from gearpair.parameters import PARTS
+from gearpair.parameters import PARTS, WAVE
 from gearpair.stiffness import StiffnessWave
 from gearpair.study.chapters import Chapter
 
 WORTH_TELLING = 3.0
 SAMPLES = 9  # oscillators along an axis whose cost stands for all
-WAVE = ("contact_ratio", "a", "b", "reading")
 
 
 def work_ratio(chapter: Chapter, values: Mapping[str, Any]) -> float:
