@@ -37,15 +37,8 @@ STANDS_FOR = {
 STARTS = ("first_start", "second_start")
 SPEEDS = ("lowest_rpm", "highest_rpm")  # none: the chapter's choice
 RANGES = (("lowest", "highest"), ("lower", "upper"), ("frequency_from", "frequency_to"), SPEEDS)
-FEWEST = {
-    "n_values": 2,
-    "n_fine": 2,
-    "n_x": 2,
-    "n_v": 2,
-    "n_speeds": 2,
-    "n_transient": 0,
-    "n_starts": 0,
-}  # of another n_... : 1
+AXES = ("n_values", "n_fine", "n_x", "n_v", "n_speeds")  # from one end to another
+FEWEST = dict.fromkeys(AXES, 2) | {"n_transient": 0, "n_starts": 0}  # of another n_... : 1
 # What a chapter computes in one go: as many motions as these numbers make together, where it has them.
 PARTS = (
     *(("n_values",), ("n_fine",), ("n_reached",), ("n_x", "n_v"), ("n_frequency", "n_other")),
@@ -81,8 +74,7 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
     ValueError: lowest must be below highest, got lowest = 1.7 and highest = 0.7
     """
     _check_names(values)
-    wave = StiffnessWave.rectangular(**_chosen(values, WAVE))
-    osc = Oscillator(**_chosen(values, OSCILLATOR), stiffness=wave)
+    osc = oscillator_of(values)
     if pair := _chosen(values, PAIR):
         mesh_stiffness(SpurPair(**pair), **_chosen(values, MESH))
     if "pinion_torque_nm" in values:
@@ -101,6 +93,18 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
         if prod(counts.values()) > MOST_MOTIONS:
             names, got = " x ".join(counts), " x ".join(map(str, counts.values()))
             raise ValueError(f"{names} must be at most {MOST_MOTIONS}, the motions that memory holds, got {got}")
+
+
+def oscillator_of(values: Mapping[str, Any]) -> Oscillator:
+    """The oscillator of a chapter's parameters; what they do not name is the baseline's.
+
+    Examples
+    --------
+    >>> oscillator_of({"damping_ratio": 0.05, "reading": "swapped", "n_values": 101}).damping_ratio
+    0.05
+    """
+    wave = StiffnessWave.rectangular(**_chosen(values, WAVE))
+    return Oscillator(**_chosen(values, OSCILLATOR), stiffness=wave)
 
 
 def _chosen(values: Mapping[str, Any], names: tuple[str, ...]) -> dict[str, Any]:

@@ -8,9 +8,10 @@ import subprocess
 import sys
 import time
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import nbformat
 
@@ -28,7 +29,9 @@ POLL = 0.05
 class Job:
     """A page to execute, and where its notebook is kept."""
 
-    page: Chapter | Variant
+    name: str
+    chapter: Chapter
+    values: Mapping[str, Any]
     kept: Path
     began: float = 0.0
     log: Path = Path()
@@ -55,14 +58,17 @@ def execute_all(
         That of the first page to fail; the others are stopped.
     """
     cache.directory.mkdir(parents=True, exist_ok=True)
-    jobs = [Job(page, cache.path(_chapter(page), _values(page), lock)) for page in pages]
+    named = {page.name: page for page in pages}
+    jobs = []
+    for name, page in named.items():
+        chapter, values = (page.chapter, page.values) if isinstance(page, Variant) else (page, {})
+        jobs.append(Job(name, chapter, values, cache.path(chapter, values, lock)))
     found = {job.kept: cache.read(job.kept) for job in jobs}
     missing = {job.kept: job for job in jobs if found[job.kept] is None}
     _run(longest_first([*missing.values()], cache), scratch)
     cache.prune(found)
-    for kept in missing:
-        found[kept] = cache.read(kept)
-    return {job.page.name: (job.page, nbformat.from_dict(found[job.kept])) for job in jobs}
+    found |= {kept: cache.read(kept) for kept in missing}
+    return {job.name: (named[job.name], nbformat.from_dict(found[job.kept])) for job in jobs}
 
 
 def longest_first(jobs: list[Job], cache: Cache) -> list[Job]:
@@ -70,24 +76,14 @@ def longest_first(jobs: list[Job], cache: Cache) -> list[Job]:
 
     One that began last would keep a single core at work while the others wait.
     """
-    chapters = {_chapter(job.page) for job in jobs}
-    seconds = {chapter.path: cache.seconds(chapter.name) or chapter.seconds for chapter in chapters}
-    return sorted(jobs, key=lambda job: seconds[_chapter(job.page).path], reverse=True)
-
-
-def _chapter(page: Chapter | Variant) -> Chapter:
-    return page.chapter if isinstance(page, Variant) else page
-
-
-def _values(page: Chapter | Variant) -> dict[str, object]:
-    return page.values if isinstance(page, Variant) else {}
+    return sorted(jobs, key=lambda job: cache.seconds(job.chapter.name) or job.chapter.seconds, reverse=True)
 
 
 def _run(jobs: list[Job], scratch: Path) -> None:
     waiting, running = deque(jobs), dict[subprocess.Popen[bytes], Job]()
     at_once = max(1, min(len(jobs), os.cpu_count() or 1))
     if jobs:
-        _say(f"to execute: {', '.join(job.page.name for job in jobs)} ({at_once} at a time)")
+        _say(f"to execute: {', '.join(job.name for job in jobs)} ({at_once} at a time)")
     told = time.monotonic()
     try:
         while waiting or running:
@@ -98,7 +94,7 @@ def _run(jobs: list[Job], scratch: Path) -> None:
                 _finish(running.pop(process), process.returncode)
                 told = time.monotonic()
             if time.monotonic() - told > SIGN_OF_LIFE:
-                _say(f"running: {', '.join(f'{job.page.name} ({_since(job)})' for job in running.values())}")
+                _say(f"running: {', '.join(f'{job.name} ({_since(job)})' for job in running.values())}")
                 told = time.monotonic()
             time.sleep(POLL)
     finally:
@@ -110,14 +106,14 @@ def _run(jobs: list[Job], scratch: Path) -> None:
 
 def _start(job: Job, scratch: Path) -> subprocess.Popen[bytes]:
     """`gearpair run` in a process and a session of its own: Ctrl-C reaches it by way of this one alone."""
-    chapter, job.began, job.log = _chapter(job.page), time.monotonic(), scratch / f"{job.page.name}.log"
-    words = ["run", str(chapter.path), "--output", str(job.kept), "--quiet"]
-    parameters = scratch / f"{job.page.name}.yml"
-    parameters.write_text(json.dumps(_values(job.page)), encoding="utf-8")  # JSON is YAML
+    job.began, job.log = time.monotonic(), scratch / f"{job.name}.log"
+    parameters = scratch / f"{job.name}.yml"
+    parameters.write_text(json.dumps(job.values), encoding="utf-8")  # JSON is YAML
+    words = ["run", str(job.chapter.path), "--output", str(job.kept), "--quiet", "--file", str(parameters)]
     path = os.pathsep.join(filter(None, [str(LIBRARY.parent), os.environ.get("PYTHONPATH")]))
     with job.log.open("wb") as log:
         return subprocess.Popen(
-            [sys.executable, "-m", "gearpair", *words, "--file", str(parameters)],
+            [sys.executable, "-m", "gearpair", *words],
             stdin=subprocess.DEVNULL,
             stdout=log,
             stderr=subprocess.STDOUT,
@@ -129,8 +125,8 @@ def _start(job: Job, scratch: Path) -> subprocess.Popen[bytes]:
 def _finish(job: Job, code: int) -> None:
     if code:
         last = (job.log.read_text(encoding="utf-8", errors="replace").strip() or f"exit code {code}").splitlines()[-1]
-        raise StudyError(last.removeprefix("gearpair: ").replace(_chapter(job.page).name, job.page.name, 1))
-    _say(f"{job.page.name}: executed in {_since(job)}")
+        raise StudyError(last.removeprefix("gearpair: ").replace(job.chapter.name, job.name, 1))
+    _say(f"{job.name}: executed in {_since(job)}")
 
 
 def _since(job: Job) -> str:
