@@ -31,21 +31,12 @@ SCALARS = {"float": "a number", "int": "a whole number", "bool": "true or false"
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter of a chapter.
-
-    Parameters
-    ----------
-    name, annotation : str
-        As written in the cell; the annotation is ``float``, ``int``, ``bool``, ``str``, a ``list[...]`` of one of
-        these, or one of these ``| None``.
-    default : object
-        The literal that stands in the cell.
-    comment : str
-        What the parameter is: the comment on its line.
-    """
+    """One parameter of a chapter, as its line in the cell has it."""
 
     name: str
-    annotation: str
+    annotation: (
+        str  # ``float``, ``int``, ``bool``, ``str``, a ``list[...]`` of one of these, or one of these ``| None``
+    )
     default: Any
     comment: str
 
@@ -63,12 +54,7 @@ class Parameter:
         return f"{word}, or none" if optional else word
 
     def parse(self, text: str) -> Any:
-        """The value that `text`, typed on a command line, stands for.
-
-        Raises
-        ------
-        ValueError
-            If it is not of the declared type.
+        """The value that `text`, typed on a command line, stands for, or a ValueError.
 
         Examples
         --------
@@ -90,12 +76,7 @@ class Parameter:
             return self.convert(text)
 
     def convert(self, value: Any) -> Any:
-        """`value`, read from a YAML file, as the declared type.
-
-        Raises
-        ------
-        ValueError
-            If it is not of that type.
+        """`value`, read from a YAML file, as the declared type, or a ValueError.
 
         Examples
         --------
@@ -159,12 +140,7 @@ class Chapter:
     def parse(self, given: Iterable[tuple[str, str]], file: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """The parameters to change, checked: types by the schema, ranges and relations by the library.
 
-        Parameters
-        ----------
-        given : iterable of (str, str)
-            Names and texts, as typed on a command line.
-        file : mapping of str to object, optional
-            Names and values, as read from a YAML file; those `given` go before them.
+        `given` are names and texts, as typed on a command line; they go before the names and values of a YAML `file`.
 
         Raises
         ------

@@ -81,20 +81,8 @@ def execute(
     Nothing is written unless every cell has run, and nothing else stays: not when the run is stopped, and after a
     kill not beyond the next run of the same output.
 
-    Parameters
-    ----------
-    chapter : Chapter
-    output : Path
-        Where the executed notebook goes; its directory exists.
-    values : mapping of str to object, optional
-        Parameters to change, as `Chapter.parse` returns them.
-    progress : bool
-        Whether papermill's progress bar is shown.
-
-    Returns
-    -------
-    NotebookNode
-        The executed notebook, which ends with how it was made.
+    `values` are the parameters to change, as `Chapter.parse` returns them; the directory of `output` exists. The
+    notebook that is returned, too, ends with how it was made. `progress` shows papermill's bar.
 
     Raises
     ------

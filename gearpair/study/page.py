@@ -40,23 +40,10 @@ PAGE = """<!DOCTYPE html>
 def make_page(
     book: Book, chapter: Chapter, output: Path, values: Mapping[str, Any] | None = None, *, progress: bool = True
 ) -> None:
-    """Execute `chapter` and write it as one page that needs neither a network nor another file.
+    """`execute` a chapter and write it as one page that needs neither a network nor another file.
 
-    References to other pages of the book are left as text.
-
-    Parameters
-    ----------
-    book : Book
-        Its prose gives the numbers of the equations that the chapter refers to.
-    chapter, values, progress
-        As for `execute`.
-    output : Path
-        The page.
-
-    Raises
-    ------
-    StudyError
-        If the chapter fails, or its page does not build.
+    The prose of `book` gives the numbers of the equations that the chapter refers to. References to other pages are
+    left as text. A StudyError tells that the chapter failed, or its page did not build.
     """
     with claimed(output) as scratch:
         source = scratch / "source"

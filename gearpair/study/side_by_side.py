@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import click
 import nbformat
 
 from gearpair.study.cache import LIBRARY, Cache
@@ -26,7 +27,7 @@ POLL = 0.05
 
 
 @dataclass
-class Job:
+class Task:
     """A page to execute, and where its notebook is kept."""
 
     name: str
@@ -42,59 +43,50 @@ def execute_all(
 ) -> dict[str, tuple[Chapter | Variant, nbformat.NotebookNode]]:
     """The executed notebooks of all pages, by name: from the cache, or computed, as many at once as there are cores.
 
-    Parameters
-    ----------
-    pages : iterable of Chapter or Variant
-    cache : Cache
-        What is computed is kept there as soon as it is there, so that a build that is stopped loses little.
-    lock : Path
-        The lock file, part of the content keys.
-    scratch : Path
-        A directory for the processes' messages.
-
-    Raises
-    ------
-    StudyError
-        That of the first page to fail; the others are stopped.
+    What is computed is in the cache at once, so that a build that is stopped loses little. The `lock` file is part of
+    the content keys, and the processes' messages go to `scratch`. Where a page fails, a StudyError tells so and the
+    others are stopped.
     """
     cache.directory.mkdir(parents=True, exist_ok=True)
     named = {page.name: page for page in pages}
-    jobs = []
+    tasks = []
     for name, page in named.items():
         chapter, values = (page.chapter, page.values) if isinstance(page, Variant) else (page, {})
-        jobs.append(Job(name, chapter, values, cache.path(chapter, values, lock)))
-    found = {job.kept: cache.read(job.kept) for job in jobs}
-    missing = {job.kept: job for job in jobs if found[job.kept] is None}
+        tasks.append(Task(name, chapter, values, cache.path(chapter, values, lock)))
+    found = {task.kept: cache.read(task.kept) for task in tasks}
+    missing = {task.kept: task for task in tasks if found[task.kept] is None}
     _run(longest_first([*missing.values()], cache), scratch)
     cache.prune(found)
     found |= {kept: cache.read(kept) for kept in missing}
-    return {job.name: (named[job.name], nbformat.from_dict(found[job.kept])) for job in jobs}
+    return {task.name: (named[task.name], nbformat.from_dict(found[task.kept])) for task in tasks}
 
 
-def longest_first(jobs: list[Job], cache: Cache) -> list[Job]:
-    """The jobs by what their chapters took here the last time, else by what their notebooks tell; the longest first.
+def longest_first(tasks: list[Task], cache: Cache) -> list[Task]:
+    """The tasks by what their chapters took here the last time, else by what their notebooks tell; the longest first.
 
     One that began last would keep a single core at work while the others wait.
     """
-    return sorted(jobs, key=lambda job: cache.seconds(job.chapter.name) or job.chapter.seconds, reverse=True)
+    return sorted(tasks, key=lambda task: cache.seconds(task.chapter.name) or task.chapter.seconds, reverse=True)
 
 
-def _run(jobs: list[Job], scratch: Path) -> None:
-    waiting, running = deque(jobs), dict[subprocess.Popen[bytes], Job]()
-    at_once = max(1, min(len(jobs), os.cpu_count() or 1))
-    if jobs:
-        _say(f"to execute: {', '.join(job.name for job in jobs)} ({at_once} at a time)")
+def _run(tasks: list[Task], scratch: Path) -> None:
+    waiting, running = deque(tasks), dict[subprocess.Popen[bytes], Task]()
+    at_once = max(1, min(len(tasks), os.cpu_count() or 1))
+    if tasks:
+        click.echo(f"to execute: {', '.join(task.name for task in tasks)} ({at_once} at a time)", err=True)
     told = time.monotonic()
     try:
         while waiting or running:
             while waiting and len(running) < at_once:
-                job = waiting.popleft()
-                running[_start(job, scratch)] = job
+                task = waiting.popleft()
+                running[_start(task, scratch)] = task
             for process in [process for process in running if process.poll() is not None]:
                 _finish(running.pop(process), process.returncode)
                 told = time.monotonic()
             if time.monotonic() - told > SIGN_OF_LIFE:
-                _say(f"running: {', '.join(f'{job.name} ({_since(job)})' for job in running.values())}")
+                click.echo(
+                    f"running: {', '.join(f'{task.name} ({_since(task)})' for task in running.values())}", err=True
+                )
                 told = time.monotonic()
             time.sleep(POLL)
     finally:
@@ -104,14 +96,14 @@ def _run(jobs: list[Job], scratch: Path) -> None:
             process.wait()
 
 
-def _start(job: Job, scratch: Path) -> subprocess.Popen[bytes]:
+def _start(task: Task, scratch: Path) -> subprocess.Popen[bytes]:
     """`gearpair run` in a process and a session of its own: Ctrl-C reaches it by way of this one alone."""
-    job.began, job.log = time.monotonic(), scratch / f"{job.name}.log"
-    parameters = scratch / f"{job.name}.yml"
-    parameters.write_text(json.dumps(job.values), encoding="utf-8")  # JSON is YAML
-    words = ["run", str(job.chapter.path), "--output", str(job.kept), "--quiet", "--file", str(parameters)]
+    task.began, task.log = time.monotonic(), scratch / f"{task.name}.log"
+    parameters = scratch / f"{task.name}.yml"
+    parameters.write_text(json.dumps(task.values), encoding="utf-8")  # JSON is YAML
+    words = ["run", str(task.chapter.path), "--output", str(task.kept), "--quiet", "--file", str(parameters)]
     path = os.pathsep.join(filter(None, [str(LIBRARY.parent), os.environ.get("PYTHONPATH")]))
-    with job.log.open("wb") as log:
+    with task.log.open("wb") as log:
         return subprocess.Popen(
             [sys.executable, "-m", "gearpair", *words],
             stdin=subprocess.DEVNULL,
@@ -122,16 +114,12 @@ def _start(job: Job, scratch: Path) -> subprocess.Popen[bytes]:
         )
 
 
-def _finish(job: Job, code: int) -> None:
+def _finish(task: Task, code: int) -> None:
     if code:
-        last = (job.log.read_text(encoding="utf-8", errors="replace").strip() or f"exit code {code}").splitlines()[-1]
-        raise StudyError(last.removeprefix("gearpair: ").replace(job.chapter.name, job.name, 1))
-    _say(f"{job.name}: executed in {_since(job)}")
+        last = (task.log.read_text(encoding="utf-8", errors="replace").strip() or f"exit code {code}").splitlines()[-1]
+        raise StudyError(last.removeprefix("gearpair: ").replace(task.chapter.name, task.name, 1))
+    click.echo(f"{task.name}: executed in {_since(task)}", err=True)
 
 
-def _since(job: Job) -> str:
-    return duration(time.monotonic() - job.began)
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
+def _since(task: Task) -> str:
+    return duration(time.monotonic() - task.began)
