@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from gearpair.article.two_rotors import two_rotors
+from gearpair.article.case.two_rotors import two_rotors
 
 import gearpair as gp
 
