@@ -157,9 +157,13 @@ def unknown_name(name: str, known: Mapping[str, Any] | list[str], of: str) -> st
 
 
 def _check_names(values: Mapping[str, Any]) -> None:
-    """Refuse a parameter that papermill put in and the chapter's own cell does not declare; papermill only warns."""
+    """Refuse a parameter that papermill put in and the chapter's own cell does not declare; papermill only warns.
+
+    It warns in its own log, and leaves no trace in the kernel but the cell that it put in: an ordinary assignment, like
+    the chapter's own later ones. So the texts of the cells are read, of which IPython keeps a list, `In`.
+    """
     declared: set[str] = set()
-    for text in values.get("In", []):  # IPython's list of the cells run so far
+    for text in values.get("In", []):
         if text.startswith(INJECTED):
             for statement in ast.parse(text).body:
                 for target in statement.targets if isinstance(statement, ast.Assign) else []:
