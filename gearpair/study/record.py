@@ -19,6 +19,10 @@ from gearpair.study.chapters import Chapter
 
 TOLD = ("gearpair", "numpy", "scipy", "numba", "matplotlib", "xarray", "papermill")
 RECORD = "how-it-was-made"  # the tag and the id of the last cell
+KERNEL = {  # what a notebook tells of its kernel: nothing of this machine's
+    "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+    "language_info": {"name": "python"},
+}
 
 
 def circumstances(notebook: Path, seconds: float) -> dict[str, Any]:
@@ -71,8 +75,7 @@ def recorded(
     warned = [number for number, cell in enumerate(ran) if any(out.get("name") == "stderr" for out in cell.outputs)]
     notebook.metadata = nbformat.from_dict(
         {
-            "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
-            "language_info": {"name": "python"},
+            **KERNEL,
             "gearpair": {**made, "chapter": chapter.name, "parameters": dict(values), "warned": warned},
         }
     )
