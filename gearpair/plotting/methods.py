@@ -37,7 +37,7 @@ def work_precision(measured: Sequence[Precision], ax: Axes | None = None) -> Axe
     Parameters
     ----------
     measured : sequence of Precision
-        Of `gearpair.work_precision`.
+        Of `gearpair.methods.work_precision`.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def drawn_diagram(
     exact : xarray.Dataset
         Of `gearpair.sweep`: what is true.
     drawn : xarray.Dataset
-        Of `gearpair.runge_kutta_sweep` at the same values.
+        Of `gearpair.methods.runge_kutta_sweep` at the same values.
 
     Examples
     --------
