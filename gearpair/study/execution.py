@@ -6,8 +6,7 @@ import logging
 import os
 import threading
 import time
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -49,28 +48,22 @@ class LivelyEngine(NBClientEngine):  # type: ignore[misc]
     @classmethod
     def execute_managed_notebook(cls, nb_man: Any, kernel_name: str, **settings: Any) -> Any:
         """Run the notebook."""
-        with _refreshed(getattr(nb_man, "pbar", None)):
+        bar, over = getattr(nb_man, "pbar", None), threading.Event()
+
+        def refresh() -> None:
+            while bar is not None and not over.wait(REFRESH):
+                bar.refresh()
+
+        thread = threading.Thread(target=refresh, daemon=True)
+        thread.start()
+        try:
             return super().execute_managed_notebook(nb_man, kernel_name, **settings)
+        finally:
+            over.set()
+            thread.join()
 
 
 papermill_engines.register("lively", LivelyEngine)
-
-
-@contextmanager
-def _refreshed(bar: Any) -> Iterator[None]:
-    over = threading.Event()
-
-    def refresh() -> None:
-        while bar is not None and not over.wait(REFRESH):
-            bar.refresh()
-
-    thread = threading.Thread(target=refresh, daemon=True)
-    thread.start()
-    try:
-        yield
-    finally:
-        over.set()
-        thread.join()
 
 
 def execute(
