@@ -11,7 +11,7 @@ import pytest
 
 from gearpair.study.cache import LIBRARY, Cache, content_key, library_digest
 from gearpair.study.chapters import Chapter, read_chapter
-from gearpair.study.side_by_side import Job, longest_first
+from gearpair.study.side_by_side import Task, longest_first
 from tests.support.notebooks import MEAN, write_notebook
 
 
@@ -83,11 +83,11 @@ def test_the_longest_begins_first(tmp_path):
     """By what a chapter took here; where it was never run, by what its notebook tells."""
     kept = Cache(tmp_path)
     chapters = [Chapter(Path(f"{name}.ipynb"), name, (), {}, seconds) for name, seconds in (("a", 20.0), ("b", 30.0))]
-    jobs = [Job(chapter, tmp_path / chapter.name) for chapter in chapters]
-    assert [job.page.name for job in longest_first(jobs, kept)] == ["b", "a"]
+    tasks = [Task(chapter.name, chapter, {}, tmp_path / chapter.name) for chapter in chapters]
+    assert [task.name for task in longest_first(tasks, kept)] == ["b", "a"]
     notebook = nbformat.v4.new_notebook(metadata={"gearpair": {"seconds": 40.0, "parameters": {}}})
     nbformat.write(notebook, tmp_path / "a-0.ipynb")
-    assert [job.page.name for job in longest_first(jobs, kept)] == ["a", "b"]
+    assert [task.name for task in longest_first(tasks, kept)] == ["a", "b"]
 
 
 @pytest.mark.slow
