@@ -4,9 +4,9 @@ import dataclasses
 
 import numpy as np
 import pytest
-from gearpair.article.case.two_rotors import two_rotors
 
 import gearpair as gp
+from gearpair.article.case.two_rotors import two_rotors
 
 DRIVE = gp.GearDrive(
     pinion_teeth=34,
