@@ -63,7 +63,7 @@ $(BENCH_READY): $(READY)
 	@touch $@
 
 stability: $(READY)
-	@$(RUN) -m tools.stability $(CHAPTERS)
+	@$(RUN) -m tools.other_terms $(CHAPTERS)
 
 accept: $(READY)
 	@$(RUN) -m tools.accept

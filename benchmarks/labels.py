@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import gearpair as gp
-from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, seeds
+from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, scouts
 from gearpair.ensembles.datasets import settled_columns
 from gearpair.motion.settling import STATUSES, SettleSettings, Status, settle_batch
 from gearpair.table import Table
@@ -81,7 +81,7 @@ def compare(case: Case, n: int, seed: int = 0) -> Outcome:
     osc = case.oscillator
     starts = np.random.default_rng(seed).uniform(-1.0, 1.0, (n, 2)) * case.reach
     settings = SettleSettings(n_exponent=500, n_samples=64)
-    out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[seeds(n)], settings))
+    out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[scouts(n)], settings))
     found, places = found_in(settled_columns(out))
     (numbers,), known = number_attractors([found])
     labels, first = numbers[places], known["first"]

@@ -51,6 +51,13 @@ def check_count(name: str, value: Any, *, at_least: int = 1) -> int:
     return int(value)
 
 
+def check_options(options: Mapping[str, Any], allowed: Collection[str]) -> None:
+    """Raise a TypeError unless all `options` are among the `allowed`."""
+    for name, value in options.items():
+        if name not in allowed:
+            raise TypeError(f"unknown option {name}={value!r}: the options are {', '.join(allowed)}")
+
+
 def check_choice(name: str, value: Any, choices: Collection[str]) -> None:
     """Raise a ValueError unless `value` is one of `choices`."""
     if value not in choices:

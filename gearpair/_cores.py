@@ -15,6 +15,7 @@ def on_all_cores(
     n: int,
     block: int,
     done: Callable[[int], object] = lambda items: None,
+    cores: bool = True,
 ) -> None:
     """Call ``kernel(first, last, *arguments)`` for blocks that cover 0 to `n`, as many at once as there are cores.
 
@@ -28,13 +29,15 @@ def on_all_cores(
         Number of items, and of items in one call.
     done : callable
         Told how many items were finished, after each block.
+    cores : bool
+        Otherwise one block after the other.
 
     Notes
     -----
     NUMBA_NUM_THREADS in the environment limits the cores. Ctrl-C lets the blocks under way finish and drops the rest.
     """
     blocks = [(first, min(first + block, n)) for first in range(0, n, block)]
-    if len(blocks) <= 1:
+    if len(blocks) <= 1 or not cores:
         for first, last in blocks:
             kernel(first, last, *arguments)
             done(last - first)

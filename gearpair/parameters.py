@@ -34,15 +34,8 @@ STANDS_FOR = {
 STARTS = ("first_start", "second_start")
 SPEEDS = ("lowest_rpm", "highest_rpm")  # none: the chapter's choice
 RANGES = (("lowest", "highest"), ("lower", "upper"), ("frequency_from", "frequency_to"), SPEEDS)
-FEWEST = {
-    "n_values": 2,
-    "n_fine": 2,
-    "n_x": 2,
-    "n_v": 2,
-    "n_speeds": 2,
-    "n_transient": 0,
-    "n_starts": 0,
-}  # of another n_... : 1
+AXES = ("n_values", "n_fine", "n_x", "n_v", "n_speeds")  # from one end to another
+FEWEST = dict.fromkeys(AXES, 2) | {"n_transient": 0, "n_starts": 0}  # of another n_... : 1
 # What a chapter computes in one go: as many motions as these numbers make together, where it has them.
 PARTS = (
     *(("n_values",), ("n_fine",), ("n_reached",), ("n_x", "n_v"), ("n_frequency", "n_other")),
@@ -78,8 +71,7 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
     ValueError: lowest must be below highest, got lowest = 1.7 and highest = 0.7
     """
     _check_names(values)
-    wave = StiffnessWave.rectangular(**_chosen(values, WAVE))
-    osc = Oscillator(**_chosen(values, OSCILLATOR), stiffness=wave)
+    osc = oscillator_of(values)
     if pair := _chosen(values, PAIR):
         mesh_stiffness(SpurPair(**pair), **_chosen(values, MESH))
     if "pinion_torque_nm" in values:
@@ -99,6 +91,18 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
         if prod(counts.values()) > MOST_MOTIONS:
             names, got = " x ".join(counts), " x ".join(map(str, counts.values()))
             raise ValueError(f"{names} must be at most {MOST_MOTIONS}, the motions that memory holds, got {got}")
+
+
+def oscillator_of(values: Mapping[str, Any]) -> Oscillator:
+    """The oscillator of a chapter's parameters; what they do not name is the baseline's.
+
+    Examples
+    --------
+    >>> oscillator_of({"damping_ratio": 0.05, "reading": "swapped", "n_values": 101}).damping_ratio
+    0.05
+    """
+    wave = StiffnessWave.rectangular(**_chosen(values, WAVE))
+    return Oscillator(**_chosen(values, OSCILLATOR), stiffness=wave)
 
 
 def _chosen(values: Mapping[str, Any], names: tuple[str, ...]) -> dict[str, Any]:
@@ -151,9 +155,13 @@ def unknown_name(name: str, known: Mapping[str, Any] | list[str], of: str) -> st
 
 
 def _check_names(values: Mapping[str, Any]) -> None:
-    """Refuse a parameter that papermill put in and the chapter's own cell does not declare; papermill only warns."""
+    """Refuse a parameter that papermill put in and the chapter's own cell does not declare; papermill only warns.
+
+    It warns in its own log, and leaves no trace in the kernel but the cell that it put in: an ordinary assignment, like
+    the chapter's own later ones. So the texts of the cells are read, of which IPython keeps a list, `In`.
+    """
     declared: set[str] = set()
-    for text in values.get("In", []):  # IPython's list of the cells run so far
+    for text in values.get("In", []):
         if text.startswith(INJECTED):
             for statement in ast.parse(text).body:
                 for target in statement.targets if isinstance(statement, ast.Assign) else []:

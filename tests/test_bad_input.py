@@ -137,6 +137,31 @@ def test_a_call_with_a_value_out_of_range(message):
     assert message in str(failure.value)
 
 
+SETTLING = "the options are n_transient, max_period, n_exponent"
+DIAGRAM = "the options are n_transient, n_samples, closeness"
+
+
+@pytest.mark.parametrize(
+    "call, allowed",
+    [
+        (lambda **how: gp.steady_state(BASELINE, **how), SETTLING),
+        (lambda **how: gp.sweep(BASELINE, "mesh_frequency", [0.7], **how), SETTLING),
+        (lambda **how: gp.ensembles.basin_stability(BASELINE, 1, **how), SETTLING),
+        (lambda **how: gp.ensembles.continue_attractors(BASELINE, "mesh_frequency", [0.7], **how), SETTLING),
+        (lambda **how: gp.basins(BASELINE, [1.0], [0.0], **how), SETTLING + ", most_work"),
+        (lambda **how: gp.parameter_map(BASELINE, {"mesh_frequency": [0.7]}, **how), SETTLING + ", most_work"),
+        (lambda **how: gp.methods.runge_kutta_sweep(BASELINE, "mesh_frequency", [0.7], **how), DIAGRAM),
+        (lambda **how: gp.methods.plain_sweep(BASELINE, "mesh_frequency", [0.7], **how), DIAGRAM),
+    ],
+)
+def test_an_option_misspelt_and_one_out_of_range(call, allowed):
+    with pytest.raises(TypeError) as failure:
+        call(n_transiet=5)
+    assert str(failure.value) == f"unknown option n_transiet=5: {allowed}"
+    with pytest.raises(ValueError, match="n_transient must be a whole number of at least 0, got -5"):
+        call(n_transient=-5)
+
+
 def test_numpy_scalars_are_numbers_too():
     osc = gp.Oscillator(mesh_frequency=np.float32(0.5), damping_ratio=np.int64(0))
     assert osc.mesh_frequency == 0.5

@@ -13,7 +13,7 @@ import nbformat
 from gearpair.study.book import Book
 from gearpair.study.cli import main
 from gearpair.study.execution import execute
-from gearpair.study.record import RECORD
+from gearpair.study.record import KERNEL, RECORD
 
 
 def accept_outputs(book: Book, *, progress: bool = True) -> list[str]:
@@ -45,13 +45,8 @@ def accept_outputs(book: Book, *, progress: bool = True) -> list[str]:
 def stable_notebook(source: Path, executed: nbformat.NotebookNode) -> nbformat.NotebookNode:
     """The notebook at `source` with the outputs of `executed`, less what is not stable."""
     notebook = nbformat.read(source, as_version=4)
-    notebook.metadata = nbformat.from_dict(
-        {
-            **{key: value for key, value in notebook.metadata.items() if key == "gearpair"},  # how long it takes
-            "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
-            "language_info": {"name": "python"},
-        }
-    )
+    told = {key: value for key, value in notebook.metadata.items() if key == "gearpair"}  # how long it takes
+    notebook.metadata = nbformat.from_dict(told | KERNEL)
     ran = [cell for cell in executed.cells if RECORD not in cell.metadata.get("tags", [])]
     for cell, run in zip(notebook.cells, ran, strict=True):
         if cell.cell_type == "code":

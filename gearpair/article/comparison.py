@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from gearpair.article import published
 from gearpair.article.published import Boundary, Range
-from gearpair.ensembles.datasets import symbol
 from gearpair.ensembles.planes import attractor_motions
 from gearpair.ensembles.ranges import MotionRange
 from gearpair.motion.names import Motion
+from gearpair.quantities import symbol
 from gearpair.table import Table
 
 if TYPE_CHECKING:

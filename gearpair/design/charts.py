@@ -13,16 +13,15 @@ from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import linear_response
 from gearpair.design.loads import MEASURES, measure_motion, same_motion
 from gearpair.drive import GearDrive
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.settling import CHART, settle_batch, settle_both_ways
 from gearpair.motion.steady import SteadyState, describe
 from gearpair.oscillator import Oscillator
+from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
     import xarray as xr
 
 RUNS = ("up", "down", "worst")
-MAX_PERIOD = 16
-N_EXPONENT = 300  # mesh periods: the verdict on chaos needs no more digits here
 
 
 def speed_chart(
@@ -129,11 +128,6 @@ def oscillators_at(drive: GearDrive, speeds: NDArray[np.float64]) -> list[Oscill
     return [drive.at_speed(speed).oscillator() for speed in speeds.tolist()]
 
 
-def settle_settings(n_transient: int | None) -> SettleSettings:
-    """How long every motion of a chart is waited for."""
-    return SettleSettings(n_transient=n_transient, max_period=MAX_PERIOD, n_exponent=N_EXPONENT, n_samples=MAX_PERIOD)
-
-
 def carried_runs(
     ranges: Sequence[list[Oscillator]], n_transient: int | None, *, progress: bool = False
 ) -> list[tuple[list[SteadyState], list[SteadyState]]]:
@@ -145,11 +139,11 @@ def carried_runs(
         Both in the order of the range, which all have in one length.
     """
     n = len(ranges[0])
-    lanes = [osc for each in ranges for osc in (*each, *each[::-1])]
+    lanes = [osc for each in ranges for osc in each]
     starts = np.array([(1.0 + max(osc.mean_force, 0.0) / osc.stiffness.mean, 0.0) for osc in lanes])
-    out = settle_batch(lanes, starts, settle_settings(n_transient), chain=n, progress=progress)
-    states = [describe(osc, out, i) for i, osc in enumerate(lanes)]
-    return [(states[i : i + n], states[i + n : i + 2 * n][::-1]) for i in range(0, len(states), 2 * n)]
+    both = settle_both_ways(lanes, starts, CHART.having({"n_transient": n_transient}), chain=n, progress=progress)
+    up, down = ([describe(osc, out, i) for i, osc in enumerate(lanes)] for out in both)
+    return [(up[i : i + n], down[i : i + n]) for i in range(0, len(lanes), n)]
 
 
 def settled_starts(
@@ -159,7 +153,7 @@ def settled_starts(
     if not n_starts:
         return [[] for _ in oscillators]
     starts = np.concatenate([spread_starts(osc, n_starts) for osc in oscillators])
-    out = settle_batch(oscillators, starts, settle_settings(n_transient), progress=progress)
+    out = settle_batch(oscillators, starts, CHART.having({"n_transient": n_transient}), progress=progress)
     return [
         [describe(osc, out, i) for i in range(k * n_starts, (k + 1) * n_starts)] for k, osc in enumerate(oscillators)
     ]
@@ -188,37 +182,31 @@ def _dataset(
 ) -> xr.Dataset:
     import xarray as xr  # here, so that importing gearpair stays quick
 
-    names = {
-        "motion": ("motion", "1"),
-        "period": ("period in mesh periods, 0 unless periodic", "1"),
-        "impact_state": ("impact state", "1"),
-    } | {name: (long_name, unit) for name, (long_name, unit) in MEASURES.items()}
     variables: dict[str, Any] = {
-        name: (("run", "speed"), np.array(columns[name]), {"long_name": long_name, "units": unit})
-        for name, (long_name, unit) in names.items()
+        name: (("run", "speed"), np.array(column), attributes(name)) for name, column in columns.items()
     }
     linear = [linear_response(osc) for osc in oscillators]
     unit_um = drive.half_backlash_m * 1e6
     ratios = [osc.mesh_frequency for osc in oscillators]
-    for name, values, long_name, units in (
-        ("n_motions", n_motions, "motions found", "1"),
-        ("worst_share", worst_share, "share of the starts that leads to the worst motion", "1"),
-        ("linear_factor", [each.load_factor for each in linear], "dynamic factor of the linear response", "1"),
-        ("linear_rms", [each.x_rms * unit_um for each in linear], "rms of the linear response", "um"),
-        ("mesh_frequency", ratios, "mesh frequency over the natural frequency", "1"),
+    for name, values in (
+        ("n_motions", n_motions),
+        ("worst_share", worst_share),
+        ("linear_factor", [each.load_factor for each in linear]),
+        ("linear_rms", [each.x_rms * unit_um for each in linear]),
     ):
-        variables[name] = ("speed", np.array(values), {"long_name": long_name, "units": units})
+        variables[name] = ("speed", np.array(values), attributes(name))
+    variables["mesh_frequency"] = ("speed", np.array(ratios), attributes("frequency_ratio"))
     at = np.array([jump.mesh_frequency * drive.resonance_rpm for jump in jumps])
-    variables["jump_speed"] = ("jump", at, {"long_name": "speed of the jump", "units": "rpm"})
+    variables["jump_speed"] = ("jump", at, attributes("jump_speed"))
     for name, words in (
-        ("run", [jump.run for jump in jumps]),
-        ("kind", [jump.kind for jump in jumps]),
-        ("from", [jump.before for jump in jumps]),
-        ("to", [jump.after for jump in jumps]),
+        ("jump_run", [jump.run for jump in jumps]),
+        ("jump_kind", [jump.kind for jump in jumps]),
+        ("jump_from", [jump.before for jump in jumps]),
+        ("jump_to", [jump.after for jump in jumps]),
     ):
-        variables[f"jump_{name}"] = ("jump", np.array(words, dtype=str), {"long_name": f"jump: {name}", "units": "1"})
+        variables[name] = ("jump", np.array(words, dtype=str), attributes(name))
     return xr.Dataset(
         variables,
-        {"run": list(RUNS), "speed": ("speed", speeds, {"long_name": "speed of the pinion", "units": "rpm"})},
+        {"run": list(RUNS), "speed": ("speed", speeds, attributes("speed"))},
         {"drive": repr(drive), "mean_force_n": drive.mean_force_n},
     )

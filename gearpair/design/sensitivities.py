@@ -13,6 +13,7 @@ from gearpair._checks import check_number
 from gearpair.design.charts import carried_runs, check_speeds, oscillators_at
 from gearpair.design.loads import measure_motion
 from gearpair.drive import GearDrive
+from gearpair.quantities import attributes
 from gearpair.teeth import SpurPair
 
 if TYPE_CHECKING:
@@ -21,12 +22,12 @@ if TYPE_CHECKING:
 OF_DRIVE = ("pinion_torque_nm", "backlash_um", "transmission_error_um", "damping_ratio")
 OF_PAIR = tuple(field.name for field in fields(SpurPair) if not field.name.endswith("teeth"))
 FACTORS = {name: (0.5, 2.0) for name in OF_DRIVE} | {"addendum": (0.95, 1.05)}
-# Name -> what it is, and its unit.
+# What is kept of a range of speeds, by the names of the worst of it.
 OUTCOMES = {
-    "dynamic_factor": ("largest dynamic factor", "1"),
-    "mesh_force": ("largest mesh force", "N"),
-    "time_apart": ("largest share of the time without contact", "1"),
-    "impact_range": ("speeds with impacts, together", "rpm"),
+    "dynamic_factor": "worst_dynamic_factor",
+    "mesh_force": "worst_mesh_force",
+    "time_apart": "worst_time_apart",
+    "impact_range": "impact_range",
 }
 
 
@@ -100,11 +101,11 @@ def sensitivity(
     outcome = np.array(rows[1:]).reshape(*shape, len(OUTCOMES))
     ratios = [each.mesh.contact_ratio if each.mesh else np.nan for each in drives[1:]]
     variables = {
-        name: (("change", "end"), outcome[:, :, k], {"long_name": long_name, "units": unit})
-        for k, (name, (long_name, unit)) in enumerate(OUTCOMES.items())
+        name: (("change", "end"), outcome[:, :, k], attributes(worst))
+        for k, (name, worst) in enumerate(OUTCOMES.items())
     } | {f"base_{name}": ((), rows[0][k]) for k, name in enumerate(OUTCOMES)}
     variables["value"] = (("change", "end"), np.array(values).reshape(shape), {"long_name": "changed to"})
-    variables["contact_ratio"] = (("change", "end"), np.array(ratios).reshape(shape), {"units": "1"})
+    variables["contact_ratio"] = (("change", "end"), np.array(ratios).reshape(shape), attributes("contact_ratio"))
     coordinates = {"change": list(chosen), "end": ["low", "high"]}
     return xr.Dataset(variables, coordinates, {"drive": repr(drive), "base": base})
 

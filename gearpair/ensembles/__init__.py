@@ -1,10 +1,9 @@
 """Ensembles of motions: sweeps and maps over parameters, basins over starts, and where each motion lives."""
 
-from gearpair.ensembles.datasets import symbol
 from gearpair.ensembles.planes import attractor_motions, attractor_states, basins
 from gearpair.ensembles.ranges import (
     MotionRange,
-    follow,
+    carried_sweeps,
     found_ranges,
     joined_ranges,
     motion_ranges,
@@ -27,9 +26,9 @@ __all__ = [
     "basin_entropy",
     "basin_stability",
     "basins",
+    "carried_sweeps",
     "continue_attractors",
     "decoded",
-    "follow",
     "found_ranges",
     "joined_ranges",
     "motion_ranges",
@@ -39,6 +38,5 @@ __all__ = [
     "range_of",
     "representatives",
     "sweep",
-    "symbol",
     "uncertainty_exponent",
 ]

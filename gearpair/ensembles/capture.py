@@ -15,14 +15,14 @@ from gearpair.motion.same_orbit import SAME_ORBIT
 from gearpair.motion.settling import SettleSettings, nothing_known, settle_batch
 from gearpair.oscillator import Oscillator
 
-SEEDS = 256  # starts that are settled first, at most an eighth of all
+SCOUTS = 256  # starts that are settled first, at most an eighth of all
 # Chaotic motions no farther apart than this, in a chain, are one set.
 SAME_SET = {"x_min": 0.25, "x_max": 0.25, "exponent": 0.1}
 
 
-def seeds(n: int) -> NDArray[np.int64]:
+def scouts(n: int) -> NDArray[np.int64]:
     """Which of `n` starts to look for attractors from: steps of the golden section, even over a grid of any shape."""
-    m = min(SEEDS, n // 8)
+    m = min(SCOUTS, n // 8)
     return np.unique((np.arange(1, m + 1) * 0.6180339887498949 % 1.0 * n).astype(np.int64))
 
 
@@ -36,7 +36,7 @@ def known_attractors(osc: Oscillator, starts: NDArray[np.float64], settings: Set
     out = settle_batch([osc], starts, settings)
     found, _ = found_in(settled_columns(out))
     rows = np.sort(found.first[found.columns["status"] == PERIODIC])
-    settled = Settled(*(column[rows] for column in out))
+    settled = Settled._make(column[rows] for column in out)
     settled.way[:] = np.nan
     neighbourhoods = np.empty((int(settled.period.sum()), COLUMNS))
     filled = surround_rows(osc.cells, settled.points[:, 0].copy(), settled.period, neighbourhoods)

@@ -5,23 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._flow.settle import Known
-from gearpair.ensembles.capture import Found, found_in, known_attractors, number_attractors, seeds
-from gearpair.ensembles.datasets import (
-    axis_attributes,
-    settled_columns,
-    variables_of,
-    way_columns,
-)
-from gearpair.ensembles.stores import add_column, add_table, fill, opened_dataset, read_blocks
+from gearpair.ensembles.capture import Found, found_in, known_attractors, number_attractors, scouts
+from gearpair.ensembles.datasets import dataset, settled_columns, variables_of, way_columns
+from gearpair.ensembles.stores import add_column, add_table, by_store, fill, opened_dataset, read_blocks
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import Motion, motions_from
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.settling import MANY, BatchOptions, SettleSettings, settle_batch
 from gearpair.motion.steady import SteadyState, steady_state
 from gearpair.motion.trajectories import check_starts
 from gearpair.oscillator import Oscillator
@@ -38,36 +33,28 @@ def basins(
     x: ArrayLike,
     v: ArrayLike,
     *,
-    n_transient: int | None = None,
-    max_period: int = 64,
-    n_exponent: int = 500,
-    most_work: int | None = None,
     store: str | Path | None = None,
     client: Client | None = None,
     progress: bool = False,
+    **settling: Unpack[BatchOptions],
 ) -> xr.Dataset:
     """The attractor that each start of a grid reaches, and what happens on the way.
 
     Parameters
     ----------
     osc : Oscillator
-    x : array_like of float, shape (n_x,)
-        Initial X.
-    v : array_like of float, shape (n_v,)
-        Initial X'.
-    n_transient, max_period, n_exponent
-        As in `steady_state`.
-    most_work : int, optional
-        Mesh periods that all starts together may take at most; a start that would need more than its share ends as
-        ``"exhausted"``.
+    x, v : array_like of float, shapes (n_x,) and (n_v,)
+        Initial X and X'.
     store : path, optional
         Write the result to a Zarr store, block by block, and return it from there: memory then holds one block. The
-        same call goes on with a store that was not finished. Codes stand for words, which
+        same call goes on with a store not yet finished; one of another call is refused. Codes stand for words, which
         `gearpair.ensembles.decoded` puts back.
     client : distributed.Client, optional
         Compute the blocks on its workers, which must see the path of the store.
     progress : bool
         Show a progress bar on stderr, with the most mesh periods that all may take.
+    **settling
+        See `gearpair.motion.BatchOptions`.
 
     Returns
     -------
@@ -83,8 +70,6 @@ def basins(
 
     Raises
     ------
-    ValueError
-        For starts that are not finite or not one-dimensional, or a store that was made with other arguments.
     ImportError
         For a store without zarr, which the extra ``cluster`` brings.
 
@@ -106,22 +91,20 @@ def basins(
     for name, values in (("x", xs), ("v", vs)):
         if values.ndim != 1 or values.size == 0:
             raise ValueError(f"{name} must be a non-empty sequence of numbers, got shape {values.shape}")
-    settings = SettleSettings(
-        n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1, most_work=most_work
-    )
-    plane = Plane.of(osc, xs, vs, settings)
-    if store is not None or client is not None:
+    plane = Plane.of(osc, xs, vs, MANY.having(settling, BatchOptions))
+    if by_store(store, client):
         return _stored(plane, store, client, progress)
     columns = plane.columns(0, len(vs), progress=progress)
     found, places = found_in(columns)
     (numbers,), table = number_attractors([found])
     variables = variables_of(columns | {"attractor": numbers[places]}, ("v", "x"), (len(vs), len(xs)))
-    return plane_dataset(plane, variables, attractor_variables(table, len(places)))
+    variables |= attractor_variables(table, len(places))
+    return dataset(osc, variables, plane.axes).assign_coords(attractor_number=np.arange(len(table["counts"])))
 
 
 @dataclass(frozen=True)
 class Plane:
-    """A plane of starts to be settled in any parts (a `gearpair.ensembles.stores.Job`)."""
+    """A plane of starts to be settled in any parts (a `gearpair.ensembles.stores.MotionGrid`)."""
 
     osc: Oscillator
     axes: dict[str, NDArray[np.float64]]
@@ -132,9 +115,9 @@ class Plane:
     def of(cls, osc: Oscillator, xs: NDArray[np.float64], vs: NDArray[np.float64], settings: SettleSettings) -> Plane:
         """With the attractors that some of the starts reach, which are the same however the plane is cut."""
         n = len(xs) * len(vs)
-        rows, columns = np.divmod(seeds(n), len(xs))
-        seed_starts = np.stack([xs[columns], vs[rows]], axis=1)
-        return cls(osc, {"v": vs, "x": xs}, settings, known_attractors(osc, seed_starts, settings))
+        rows, columns = np.divmod(scouts(n), len(xs))
+        scouting = np.stack([xs[columns], vs[rows]], axis=1)
+        return cls(osc, {"v": vs, "x": xs}, settings, known_attractors(osc, scouting, settings))
 
     @property
     def identity(self) -> dict[str, str]:
@@ -152,10 +135,8 @@ class Plane:
         return settled_columns(out) | way_columns(out)
 
 
-def _stored(plane: Plane, store: str | Path | None, client: Client | None, progress: bool) -> xr.Dataset:
+def _stored(plane: Plane, store: str | Path, client: Client | None, progress: bool) -> xr.Dataset:
     """`basins` by way of a store: the blocks, then one numbering for the attractors of all."""
-    if store is None:
-        raise ValueError("a client needs a store to write to, on a path that all its workers see: give store, too")
     group = fill(plane, store, client=client, progress=progress)
     if not group.attrs.get("complete"):
         names = ["status", "period", "section_x", "section_v", "x_min", "x_max", "exponent", "impact_state"]
@@ -173,15 +154,6 @@ def _stored(plane: Plane, store: str | Path | None, client: Client | None, progr
     return opened_dataset(store)
 
 
-def plane_dataset(plane: Plane, variables: Mapping[str, Any], table: Mapping[str, Any]) -> xr.Dataset:
-    """Variables over a plane of starts, and over its attractors."""
-    import xarray as xr  # here, so that importing gearpair stays quick
-
-    coordinates: dict[str, Any] = {name: (name, values, axis_attributes(name)) for name, values in plane.axes.items()}
-    coordinates["attractor_number"] = np.arange(len(table["attractor_share"][1]))
-    return xr.Dataset({**variables, **table}, coordinates, {"oscillator": repr(plane.osc)})
-
-
 def attractor_variables(
     table: Mapping[str, NDArray[Any]], n: int, *, errors: bool = False, coded: bool = False
 ) -> dict[str, Any]:
@@ -195,18 +167,9 @@ def attractor_variables(
 
 
 def attractor_motions(result: xr.Dataset, least_share: float = 0.0) -> list[Motion]:
-    """What each attractor of `gearpair.basins` is: its motion and, where periodic, its impact state.
+    """What each attractor of a `gearpair.basins` is: its motion and, where periodic, its impact state.
 
-    Parameters
-    ----------
-    result : xarray.Dataset
-        Of `gearpair.basins`.
-    least_share : float
-        Attractors that fewer of the starts reach are left out.
-
-    Returns
-    -------
-    list of Motion
+    Attractors that less than `least_share` of the starts reach are left out.
 
     Examples
     --------
@@ -223,20 +186,9 @@ def attractor_motions(result: xr.Dataset, least_share: float = 0.0) -> list[Moti
 
 
 def attractor_states(osc: Oscillator, result: xr.Dataset, least_share: float = 0.0) -> list[SteadyState]:
-    """The periodic attractors of `gearpair.basins`, each described in full.
+    """The periodic attractors of the `gearpair.basins` of `osc`, each described in full.
 
-    Parameters
-    ----------
-    osc : Oscillator
-        Whose basins they are.
-    result : xarray.Dataset
-        Of `gearpair.basins`.
-    least_share : float
-        Attractors that fewer of the starts reach are left out.
-
-    Returns
-    -------
-    list of SteadyState
+    Attractors that less than `least_share` of the starts reach are left out.
 
     Examples
     --------

@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearpair._checks import check_number
-from gearpair.ensembles.datasets import oscillators_along, symbol
+from gearpair.ensembles.datasets import oscillators_along
 from gearpair.ensembles.sweeps import sweep
 from gearpair.motion.names import CHAOS, IMPACT_NAMES, Motion, motions_of, periodic
 from gearpair.motion.steady import SteadyState, steady_state
 from gearpair.oscillator import Oscillator
+from gearpair.quantities import symbol
 from gearpair.table import Table
 
 if TYPE_CHECKING:
@@ -27,14 +28,7 @@ TRIES = 20  # values at which a representative is looked for again before the sw
 
 @dataclass(frozen=True)
 class MotionRange:
-    """A range of one parameter with one kind of motion.
-
-    Attributes
-    ----------
-    lower, upper : float
-        The first and the last value at which the motion was met.
-    motion : Motion
-    """
+    """A range of one parameter with one kind of motion: the first and the last value at which it was met."""
 
     lower: float
     upper: float
@@ -47,16 +41,7 @@ class MotionRange:
 
 
 def motion_ranges(result: xr.Dataset) -> tuple[MotionRange, ...]:
-    """The runs of one motion in a sweep, by rising parameter, whatever its direction was.
-
-    Parameters
-    ----------
-    result : xarray.Dataset
-        Of `gearpair.sweep`.
-
-    Returns
-    -------
-    tuple of MotionRange
+    """The runs of one motion in a `gearpair.sweep`, by rising parameter, whatever its direction was.
 
     Examples
     --------
@@ -73,17 +58,9 @@ def motion_ranges(result: xr.Dataset) -> tuple[MotionRange, ...]:
 
 
 def joined_ranges(ranges: Iterable[MotionRange]) -> tuple[MotionRange, ...]:
-    """Ranges of one motion that overlap or touch made one, by rising lower end.
+    """Ranges, in any order, with those of one motion that overlap or touch made one; by rising lower end.
 
-    Parameters
-    ----------
-    ranges : iterable of MotionRange
-        In any order.
-
-    Returns
-    -------
-    tuple of MotionRange
-        Ranges of different motions may overlap.
+    Ranges of different motions may overlap.
 
     Examples
     --------
@@ -102,28 +79,11 @@ def joined_ranges(ranges: Iterable[MotionRange]) -> tuple[MotionRange, ...]:
 
 
 def found_ranges(*sweeps: xr.Dataset, narrowest: float = 0.0) -> tuple[MotionRange, ...]:
-    """Where each periodic motion was found by any of several sweeps, the runs that overlap joined.
+    """Where each periodic motion was found by any of several sweeps over one parameter, as `joined_ranges`.
 
     A carried sweep follows a stable motion to its end: a rising sweep to the upper end, a falling one to the lower. The
     ranges that the two give together are therefore the ranges of existence, to the step of the sweep, and they do not
-    depend on where a chaotic motion happened to be caught.
-
-    Parameters
-    ----------
-    *sweeps : xarray.Dataset
-        Of `gearpair.sweep`, over the same parameter.
-    narrowest : float
-        Ranges narrower than this are left out.
-
-    Returns
-    -------
-    tuple of MotionRange
-        By rising lower end; ranges of different motions may overlap.
-
-    Raises
-    ------
-    ValueError
-        For sweeps over different parameters, or a negative `narrowest`.
+    depend on where a chaotic motion happened to be caught. Those narrower than `narrowest` are left out.
 
     Examples
     --------
@@ -154,25 +114,10 @@ def representatives(
     motions: Sequence[Motion] = (periodic(1), periodic(2), periodic(3), periodic(4), CHAOS),
     near: Mapping[Motion, float] | None = None,
 ) -> dict[Motion, SteadyState]:
-    """One settled motion of each kind, from the sweeps that met it.
+    """One settled motion of each kind in `motions`, whatever its impact state, from the sweeps of `osc` that met it.
 
-    The sweeps are asked in turn, and the first that met the motion gives it: at the middle of its widest run, or
-    at the value nearest to the one given in `near`. A motion that no sweep met is left out.
-
-    Parameters
-    ----------
-    osc : Oscillator
-        What was swept.
-    *sweeps : xarray.Dataset
-        Of `gearpair.sweep`, the preferred first.
-    motions : sequence of Motion
-        Kinds, whatever the impact state.
-    near : mapping of Motion to float, optional
-        Where to look for some of the motions.
-
-    Returns
-    -------
-    dict of Motion to SteadyState
+    The sweeps are asked in turn, the preferred first, and the first that met the motion gives it: at the middle of its
+    widest run, or at the value nearest to the one given for it in `near`. A motion that no sweep met is left out.
 
     Examples
     --------
@@ -207,7 +152,7 @@ def _settled_again(osc: Oscillator, result: xr.Dataset, i: int, motion: Motion) 
     return state if state.motion.kind == motion else None
 
 
-def follow(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> tuple[xr.Dataset, ...]:
+def carried_sweeps(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> tuple[xr.Dataset, ...]:
     """Carried sweeps from one settled motion towards both ends of the values, to see how far it lives.
 
     Parameters
@@ -228,7 +173,7 @@ def follow(state: SteadyState, parameter: str, values: ArrayLike, **settings: An
 
     Examples
     --------
-    >>> falling, rising = follow(steady_state(Oscillator()), "mesh_frequency", [0.65, 0.7, 0.75, 0.78])
+    >>> falling, rising = carried_sweeps(steady_state(Oscillator()), "mesh_frequency", [0.65, 0.7, 0.75, 0.78])
     >>> print(found_ranges(falling, rising)[-1].motion)
     period 4
     """
@@ -240,19 +185,10 @@ def follow(state: SteadyState, parameter: str, values: ArrayLike, **settings: An
 
 
 def range_of(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> MotionRange:
-    """How far one settled motion lives: the part of `follow` in which it keeps its period and its size.
+    """How far one settled motion lives: the part of `carried_sweeps` in which it keeps its period and its size.
 
     From one value to the next X_min and X_max may change by no more than a fifth of their distance; a larger step is a
-    jump to another motion.
-
-    Parameters
-    ----------
-    state, parameter, values, **settings
-        As for `follow`.
-
-    Returns
-    -------
-    MotionRange
+    jump to another motion. Parameters are those of `carried_sweeps`.
 
     Examples
     --------
@@ -261,7 +197,7 @@ def range_of(state: SteadyState, parameter: str, values: ArrayLike, **settings: 
     """
     motion, here = state.motion.kind, state.oscillator.parameter(parameter)
     ends = [here, here]
-    for result in follow(state, parameter, values, **settings):
+    for result in carried_sweeps(state, parameter, values, **settings):
         visited = result[parameter].values
         sizes = np.stack([result.x_min.values, result.x_max.values])
         steps = np.abs(np.diff(sizes, axis=1, prepend=[[state.x_min], [state.x_max]])).max(axis=0)
@@ -291,4 +227,4 @@ def motion_table(states: Mapping[Any, SteadyState], parameter: str, digits: int 
         cells.append(f"{abs(state.multipliers[0]):.{digits}f}")
         value = f"{state.oscillator.parameter(parameter):.{digits}f}"
         rows.append([name, value, *(cells if state.period else ["–"] * len(cells))])
-    return Table(["motion", symbol(parameter), "X_min", "X_max", "impact state", "largest multiplier"], rows)
+    return Table(["motion", *map(symbol, (parameter, "x_min", "x_max")), "impact state", "largest multiplier"], rows)

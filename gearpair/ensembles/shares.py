@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
-from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, seeds
-from gearpair.ensembles.datasets import attributes, dataset, oscillators_along, settled_columns
+from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, scouts
+from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns
 from gearpair.ensembles.planes import attractor_variables, basins
 from gearpair.motion.names import motions_of
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.settling import MANY, BatchOptions, SettleOptions, settle_batch
 from gearpair.oscillator import Oscillator
+from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,9 +27,7 @@ def basin_stability(
     x_reach: tuple[float, float] = (-4.0, 4.0),
     v_reach: tuple[float, float] = (-3.0, 3.0),
     seed: int = 0,
-    n_transient: int | None = None,
-    max_period: int = 64,
-    n_exponent: int = 500,
+    **settling: Unpack[SettleOptions],
 ) -> xr.Dataset:
     """The share of random starts that each attractor takes, with its standard error.
 
@@ -41,18 +40,13 @@ def basin_stability(
         Smallest and largest X and X' of the rectangle.
     seed : int
         Of the random numbers: the same seed draws the same starts.
-    n_transient, max_period, n_exponent
-        As in `steady_state`.
+    **settling
+        See `gearpair.motion.SettleOptions`.
 
     Returns
     -------
     xarray.Dataset
         Over ``attractor_number`` as of `basins`, with ``attractor_share_error`` besides.
-
-    Raises
-    ------
-    ValueError
-        For a count below 1 or a rectangle without area.
 
     Notes
     -----
@@ -67,14 +61,12 @@ def basin_stability(
     """
     n = check_count("n", n)
     starts = random_starts(n, x_reach, v_reach, seed)
-    settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
-    out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[seeds(n)], settings))
+    settings = MANY.having(settling)
+    out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[scouts(n)], settings))
     found, _ = found_in(settled_columns(out))
     _, table = number_attractors([found])
-    import xarray as xr  # here, so that importing gearpair stays quick
-
-    numbers = {"attractor_number": np.arange(len(table["counts"]))}
-    return xr.Dataset(attractor_variables(table, n, errors=True), numbers, {"n": n, "oscillator": repr(osc)})
+    result = dataset(osc, attractor_variables(table, n, errors=True), {}, n=n)
+    return result.assign_coords(attractor_number=np.arange(len(table["counts"])))
 
 
 def random_starts(n: int, x_reach: tuple[float, float], v_reach: tuple[float, float], seed: int) -> NDArray[np.float64]:
@@ -91,20 +83,16 @@ def motion_shares(
     values: ArrayLike,
     x: ArrayLike,
     v: ArrayLike,
-    **settings: Any,
+    **settling: Unpack[BatchOptions],
 ) -> xr.Dataset:
     """Along one parameter, the share of a grid of starts that reaches each kind of motion.
 
     Parameters
     ----------
-    osc : Oscillator
-    parameter : str
-        One of ``osc.parameters``.
-    values : array_like of float, shape (n,)
-    x, v : array_like of float
+    osc, parameter, values
+        As in `gearpair.sweep`.
+    x, v, **settling
         The grid of starts, as for `gearpair.basins`.
-    **settings
-        As for `gearpair.basins`.
 
     Returns
     -------
@@ -119,11 +107,11 @@ def motion_shares(
     [[1.0], [1.0]]
     """
     oscillators, checked = oscillators_along(osc, parameter, values)
-    planes = [motions_of(basins(each, x, v, **settings)) for each in oscillators]
+    planes = [motions_of(basins(each, x, v, **settling)) for each in oscillators]
     motions = sorted({motion for plane in planes for motion in plane.ravel()})
     share = [[float(np.mean(plane == motion)) for motion in motions] for plane in planes]
     columns = {
-        "share": ((parameter, "motion"), share, {"long_name": "share of the starts", "units": "1"}),
+        "share": ((parameter, "motion"), share, attributes("share")),
         "status": ("motion", [str(motion.status) for motion in motions], attributes("status")),
         "period": ("motion", [motion.period or 0 for motion in motions], attributes("period")),
     }

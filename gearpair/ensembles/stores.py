@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from functools import cache
+from collections.abc import Iterator, Mapping
+from functools import cache, partial
 from hashlib import sha256
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 BLOCK_POINTS = 2**16  # motions of a block, unless one row has more: some seconds of work, some megabytes
 
 
-class Job(Protocol):
+class MotionGrid(Protocol):
     """A grid of motions that can be computed in any parts and always comes out the same."""
 
     @property
@@ -39,13 +39,16 @@ class Job(Protocol):
         """The results for rows `first` to `last` of the first axis, as codes; on one core only where so asked."""
 
 
-def need_zarr() -> None:
-    """Raise an ImportError that says what to install, if it is missing."""
-    if find_spec("zarr") is None:
+def by_store(store: str | Path | None, client: Client | None) -> TypeGuard[str | Path]:
+    """Whether a result goes by way of a store; an error that says what is missing where it could not."""
+    if store is None and client is not None:
+        raise ValueError("a client needs a store to write to, on a path that all its workers see: give store, too")
+    if store is not None and find_spec("zarr") is None:
         raise ImportError("a store needs zarr: pip install 'gearpair[cluster]'")
+    return store is not None
 
 
-def fill(job: Job, path: str | Path, *, client: Client | None = None, progress: bool = False) -> Group:
+def fill(grid: MotionGrid, path: str | Path, *, client: Client | None = None, progress: bool = False) -> Group:
     """Compute what is not yet in the store at `path`, block by block; with a `client`, on its workers.
 
     A block counts once all of it is written, so a run killed at any moment goes on where it was. Every chunk of the
@@ -53,61 +56,59 @@ def fill(job: Job, path: str | Path, *, client: Client | None = None, progress: 
 
     Raises
     ------
-    ImportError
-        Without zarr.
     ValueError
         For a store made with other arguments or another engine: it says which.
     """
-    need_zarr()
-    group = _opened(job, Path(path))
+    group = _opened(grid, Path(path))
     finished = group["done"][:].tolist()
     todo = [i for i, done in enumerate(finished) if not done]
     with tqdm(total=len(finished), initial=len(finished) - len(todo), unit="block", disable=not progress) as bar:
-        if client is None:
-            for i in todo:
-                fill_block(job, str(path), i)
-                bar.update()
-        else:
-            from distributed import as_completed
-
-            shared = client.scatter(job, broadcast=True, hash=False)
-            same = [shared] * len(todo), [str(path)] * len(todo)
-            for future in as_completed(client.map(fill_block, *same, todo, cores=False, pure=False)):
-                future.result()
-                bar.update()
+        for _ in map(partial(store_block, grid, str(path)), todo) if client is None else _by(client, grid, path, todo):
+            bar.update()
     return group
 
 
-def fill_block(job: Job, path: str, i: int, *, cores: bool = True) -> None:
+def _by(client: Client, grid: MotionGrid, path: str | Path, todo: list[int]) -> Iterator[None]:
+    """Blocks stored by the workers of a `client`, in any order."""
+    from distributed import as_completed
+
+    shared = client.scatter(grid, broadcast=True, hash=False)
+    same = [shared] * len(todo), [str(path)] * len(todo)
+    return (f.result() for f in as_completed(client.map(store_block, *same, todo, cores=False, pure=False)))
+
+
+def store_block(grid: MotionGrid, path: str, i: int, *, cores: bool = True) -> None:
     """Compute block `i` and write it; its mark comes last."""
     import zarr
 
     group = zarr.open_group(path, mode="r+")
-    first, last = _blocks(job, group)[i]
-    for name, column in job.columns(first, last, cores=cores).items():
+    first, last = _blocks(grid, group)[i]
+    for name, column in grid.columns(first, last, cores=cores).items():
         array = group[name]
         array[first:last] = column.reshape(last - first, *array.shape[1:])
     group["done"][i] = True
 
 
-def add_column(job: Job, group: Group, name: str, dtype: Any) -> Any:
+def add_column(grid: MotionGrid, group: Group, name: str, dtype: Any) -> Any:
     """An array of the store for one more number per motion, made anew."""
-    return _create(job, group, name, np.empty(0, dtype))
+    return _create(grid, group, name, np.empty(0, dtype))
 
 
 def add_table(group: Group, variables: Mapping[str, Any]) -> None:
     """Small variables besides those of each motion; with them a store is complete."""
     for name, (dims, values, facts) in variables.items():
-        array = group.create_array(
-            name, shape=values.shape, dtype=values.dtype, dimension_names=dims, attributes=facts, overwrite=True
-        )
-        array[:] = values
+        _write(group, name, dims, values, facts)
     group.attrs["complete"] = True
 
 
-def read_blocks(job: Job, group: Group, names: list[str]) -> Any:
+def _write(group: Group, name: str, dims: tuple[str, ...], values: NDArray[Any], facts: Mapping[str, Any]) -> None:
+    kind: dict[str, Any] = {"shape": values.shape, "dtype": values.dtype, "dimension_names": dims, "attributes": facts}
+    group.create_array(name, **kind, overwrite=True)[:] = values
+
+
+def read_blocks(grid: MotionGrid, group: Group, names: list[str]) -> Any:
     """For each block in turn its first and last row and the columns `names`, flat."""
-    for first, last in _blocks(job, group):
+    for first, last in _blocks(grid, group):
         yield first, last, {name: group[name][first:last].ravel() for name in names}
 
 
@@ -158,16 +159,20 @@ def fingerprint(values: NDArray[Any]) -> str:
     return f"{len(values)} numbers, {sha256(np.ascontiguousarray(values).tobytes()).hexdigest()[:16]}"
 
 
-def _opened(job: Job, path: Path) -> Group:
+def _opened(grid: MotionGrid, path: Path) -> Group:
     import zarr
 
-    identity = {**job.identity, **{name: fingerprint(values) for name, values in job.axes.items()}, "engine": engine()}
+    identity = {
+        **grid.identity,
+        **{name: fingerprint(values) for name, values in grid.axes.items()},
+        "engine": engine(),
+    }
     if path.exists() and any(path.iterdir()) and not (path / "zarr.json").exists():
         raise ValueError(f"store must be a new path or one of gearpair's own, got {path}, which holds something else")
     group = zarr.open_group(str(path), mode="a")
     made: Mapping[str, Any] = group.attrs.get("identity", {})
     if not made:
-        _lay_out(job, group)
+        _lay_out(grid, group)
         group.attrs["identity"] = identity  # last: without it the next run begins again
         return group
     for name in (*identity, *made):
@@ -179,34 +184,30 @@ def _opened(job: Job, path: Path) -> Group:
     return group
 
 
-def _blocks(job: Job, group: Group) -> list[tuple[int, int]]:
+def _blocks(grid: MotionGrid, group: Group) -> list[tuple[int, int]]:
     """First and last row of each block of a store."""
-    n, rows = len(next(iter(job.axes.values()))), int(group.attrs["rows"])
+    n, rows = len(next(iter(grid.axes.values()))), int(group.attrs["rows"])
     return [(first, min(first + rows, n)) for first in range(0, n, rows)]
 
 
-def _lay_out(job: Job, group: Group) -> None:
+def _lay_out(grid: MotionGrid, group: Group) -> None:
     """All arrays of a store, empty but for the axes."""
-    lengths = [len(values) for values in job.axes.values()]
+    lengths = [len(values) for values in grid.axes.values()]
     group.attrs["rows"] = max(1, min(lengths[0], BLOCK_POINTS // max(1, int(np.prod(lengths[1:])))))
-    group.attrs["oscillator"] = job.identity["oscillator"]
-    for name, column in job.columns(0, 0).items():
-        _create(job, group, name, column)
-    for name, values in job.axes.items():
-        array = group.create_array(
-            name, shape=values.shape, dtype=values.dtype, dimension_names=(name,), attributes=axis_attributes(name),
-            overwrite=True,
-        )  # fmt: skip
-        array[:] = values
-    blocks = len(_blocks(job, group))
+    group.attrs["oscillator"] = grid.identity["oscillator"]
+    for name, column in grid.columns(0, 0).items():
+        _create(grid, group, name, column)
+    for name, values in grid.axes.items():
+        _write(group, name, (name,), values, axis_attributes(name))
+    blocks = len(_blocks(grid, group))
     group.create_array("done", shape=(blocks,), chunks=(1,), dtype=bool, dimension_names=("block",), overwrite=True)
 
 
-def _create(job: Job, group: Group, name: str, empty: NDArray[Any]) -> Any:
-    shape = tuple(len(values) for values in job.axes.values())
+def _create(grid: MotionGrid, group: Group, name: str, empty: NDArray[Any]) -> Any:
+    shape = tuple(len(values) for values in grid.axes.values())
     facts = variables_of({name: empty}, (name,), (0,), coded=True)[name][2]
     chunks = (int(group.attrs["rows"]), *shape[1:])
     return group.create_array(
-        name, shape=shape, chunks=chunks, dtype=empty.dtype, dimension_names=tuple(job.axes), attributes=facts,
+        name, shape=shape, chunks=chunks, dtype=empty.dtype, dimension_names=tuple(grid.axes), attributes=facts,
         overwrite=True,
     )  # fmt: skip

@@ -6,26 +6,33 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_choice
-from gearpair._flow.settle import Settled
 from gearpair.ensembles.capture import found_in, number_attractors
 from gearpair.ensembles.datasets import (
-    attributes,
     dataset,
     oscillators_along,
+    section_variables,
     settled_columns,
     settled_variables,
     variables_of,
 )
-from gearpair.ensembles.stores import fill, opened_dataset
+from gearpair.ensembles.stores import by_store, fill, opened_dataset
 from gearpair.motion.measures import measure_columns
-from gearpair.motion.same_orbit import SAME_ORBIT
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.same_orbit import same_motions
+from gearpair.motion.settling import (
+    MANY,
+    ONE,
+    BatchOptions,
+    SettleOptions,
+    SettleSettings,
+    settle_batch,
+    settle_both_ways,
+)
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
 
@@ -42,11 +49,9 @@ def sweep(
     x: float = 1.0,
     v: float = 0.0,
     seeding: Literal["carry", "restart"] = "carry",
-    n_transient: int | None = None,
-    max_period: int = 64,
-    n_exponent: int = 2000,
     n_samples: int = 128,
     progress: bool = False,
+    **settling: Unpack[SettleOptions],
 ) -> xr.Dataset:
     """The settled motion at each value of one parameter.
 
@@ -62,23 +67,18 @@ def sweep(
     seeding : {"carry", "restart"}
         ``"carry"`` starts each value where the one before it ended, as an experiment does;
         ``"restart"`` starts each from (x, v), in parallel over the cores.
-    n_transient, max_period, n_exponent
-        As in `steady_state`.
     n_samples : int
         Section points kept per value; at least `max_period` are.
     progress : bool
         Show a progress bar on stderr, with the most mesh periods that all may take.
+    **settling
+        See `gearpair.motion.SettleOptions`.
 
     Returns
     -------
     xarray.Dataset
         Dimensions ``(parameter, sample)``: ``x, v`` on the section, and per value ``status``, ``period``,
         ``impact_state``, ``x_min``, ``x_max``, ``exponent`` and ``exponent_error``.
-
-    Raises
-    ------
-    ValueError
-        For an unknown parameter, a value out of range, or no values.
 
     Examples
     --------
@@ -88,16 +88,12 @@ def sweep(
     """
     oscillators, checked = oscillators_along(osc, parameter, values)
     check_choice("seeding", seeding, ("carry", "restart"))
-    settings = SettleSettings(
-        n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=max(n_samples, max_period)
-    )
+    settings = ONE.having(settling, n_samples=n_samples).whole_cycles()
     starts = np.broadcast_to(check_start(x, v), (len(oscillators), 2))
     out = settle_batch(
         oscillators, starts, settings, chain=len(oscillators) if seeding == "carry" else 1, progress=progress
     )
-    variables = settled_variables(out, (parameter,), (len(checked),))
-    for i, name in enumerate(("x", "v")):
-        variables[name] = ((parameter, "sample"), out.points[:, :, i], attributes(name))
+    variables = settled_variables(out, (parameter,), (len(checked),)) | section_variables(parameter, out.points)
     return dataset(osc, variables, {parameter: checked}, seeding=seeding)
 
 
@@ -110,13 +106,10 @@ def parameter_map(
     measures: bool = False,
     starts: ArrayLike | None = None,
     carried: str | None = None,
-    n_transient: int | None = None,
-    max_period: int = 64,
-    n_exponent: int = 500,
-    most_work: int | None = None,
     store: str | Path | None = None,
     client: Client | None = None,
     progress: bool = False,
+    **settling: Unpack[BatchOptions],
 ) -> xr.Dataset:
     """The settled motion from one start at every point of a grid of parameters, in parallel over the cores.
 
@@ -134,15 +127,8 @@ def parameter_map(
     carried : str, optional
         One of the axes: add ``hysteresis``, whether the motion carried up along it, from (x, v) at its first value,
         differs from that carried down. With a `store` it must not be the first axis, along which blocks are cut.
-    n_transient, max_period, n_exponent
-        As in `steady_state`.
-    most_work : int, optional
-        Mesh periods that all points together may take at most; one that would need more than its share ends as
-        ``"exhausted"``.
-    store, client
+    store, client, progress, **settling
         As in `gearpair.basins`.
-    progress : bool
-        Show a progress bar on stderr, with the most mesh periods that all may take.
 
     Returns
     -------
@@ -152,8 +138,6 @@ def parameter_map(
 
     Raises
     ------
-    ValueError
-        For no axes, an unknown parameter, a value out of range, or a store that was made with other arguments.
     ImportError
         For a store without zarr, which the extra ``cluster`` brings.
 
@@ -168,21 +152,16 @@ def parameter_map(
     checked = {name: oscillators_along(osc, name, values)[1] for name, values in axes.items()}
     if carried is not None:
         check_choice("carried", carried, tuple(checked))
-    settings = SettleSettings(
-        n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1, measures=measures,
-        most_work=most_work,
-    )  # fmt: skip
+    settings = MANY.having(settling, BatchOptions, measures=measures)
     others = np.empty((0, 2)) if starts is None else np.array(starts, dtype=float)
     if others.ndim != 2 or others.shape[1] != 2 or not np.all(np.isfinite(others)):
         raise ValueError(f"starts must be pairs of finite numbers, got shape {others.shape}")
     grid = Grid(osc, checked, check_start(x, v), settings, others, carried)
-    first_axis = next(iter(checked))
-    if store is None:
-        if client is not None:
-            raise ValueError("a client needs a store to write to, on a path that all its workers see: give store, too")
+    if not by_store(store, client):
         shape = tuple(len(values) for values in checked.values())
         columns = grid.columns(0, shape[0], progress=progress)
         return dataset(osc, variables_of(columns, tuple(checked), shape), checked)
+    first_axis = next(iter(checked))
     if carried == first_axis:
         raise ValueError(f"carried must not be the first axis of a stored map, {first_axis!r}: name the axes otherwise")
     fill(grid, store, client=client, progress=progress)
@@ -191,7 +170,7 @@ def parameter_map(
 
 @dataclass(frozen=True)
 class Grid:
-    """A grid of parameters to be settled in any parts (a `gearpair.ensembles.stores.Job`)."""
+    """A grid of parameters to be settled in any parts (a `gearpair.ensembles.stores.MotionGrid`)."""
 
     osc: Oscillator
     axes: dict[str, NDArray[np.float64]]
@@ -218,7 +197,8 @@ class Grid:
         part = {name: values[first:last], **dict(rest)}
         points = list(product(*part.values()))
         oscillators = [self.osc.replace(**dict(zip(part, point, strict=True))) for point in points]
-        out = self._settle(oscillators, cores=cores, progress=progress)
+        starts, share = np.broadcast_to(self.start, (len(points), 2)), self._share
+        out = settle_batch(oscillators, starts, self.settings, share=share, cores=cores, progress=progress)
         columns = settled_columns(out)
         if self.settings.measures:
             columns |= measure_columns(out.measures, np.array([o.mean_force for o in oscillators]))
@@ -228,10 +208,9 @@ class Grid:
             columns["hysteresis"] = self._hysteresis(oscillators, tuple(map(len, part.values())), cores)
         return columns
 
-    def _settle(self, oscillators: list[Oscillator], *, chain: int = 1, **how: bool) -> Settled:
-        starts = np.broadcast_to(self.start, (len(oscillators), 2))
-        share = self.settings.share_of_work(int(np.prod([len(values) for values in self.axes.values()])))
-        return settle_batch(oscillators, starts, self.settings, chain=chain, share=share, **how)
+    @property
+    def _share(self) -> int:
+        return self.settings.share_of_work(int(np.prod([len(values) for values in self.axes.values()])))
 
     def _attractors(self, oscillators: list[Oscillator], cores: bool) -> NDArray[np.int64]:
         """How many attractors the other starts reach, for each oscillator."""
@@ -244,14 +223,7 @@ class Grid:
     def _hysteresis(self, oscillators: list[Oscillator], shape: tuple[int, ...], cores: bool) -> NDArray[np.bool_]:
         """Whether the motions carried up and down along the axis differ."""
         axis = list(self.axes).index(str(self.carried))
-        order = np.moveaxis(np.arange(len(oscillators)).reshape(shape), axis, -1)
-        length = shape[axis]
-        ways = []
-        for visited in (order, order[..., ::-1]):
-            lanes = visited.ravel()
-            out = settled_columns(self._settle([oscillators[i] for i in lanes], chain=max(length, 1), cores=cores))
-            ways.append({name: column[np.argsort(lanes)] for name, column in out.items()})
-        up, down = ways
-        apart = np.maximum(*(np.abs(up[name] - down[name]) for name in ("section_x", "section_v")))
-        differs = np.any([up[name] != down[name] for name in ("status", "period", "impact_state")], axis=0)
-        return np.asarray(differs | (apart > SAME_ORBIT))
+        order = np.moveaxis(np.arange(len(oscillators)).reshape(shape), axis, -1).ravel()
+        lanes, starts = [oscillators[i] for i in order], np.broadcast_to(self.start, (len(order), 2))
+        both = settle_both_ways(lanes, starts, self.settings, chain=shape[axis], share=self._share, cores=cores)
+        return ~same_motions(*map(settled_columns, both))[np.argsort(order)]

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count, check_number
-from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, seeds
+from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
 from gearpair.ensembles.planes import ATTRACTOR_COLUMNS
 from gearpair.ensembles.shares import random_starts
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.settling import MANY, SettleOptions, settle_batch
 from gearpair.oscillator import Oscillator
 
 if TYPE_CHECKING:
@@ -29,29 +29,18 @@ def continue_attractors(
     v_reach: tuple[float, float] = (-3.0, 3.0),
     seed: int = 0,
     nearest: float = 0.3,
-    n_transient: int | None = None,
-    max_period: int = 64,
-    n_exponent: int = 500,
+    **settling: Unpack[SettleOptions],
 ) -> xr.Dataset:
     """The attractors at each value of a parameter, matched from value to value, with their shares of random starts.
 
     Parameters
     ----------
-    osc : Oscillator
-    parameter : str
-        One of ``osc.parameters``.
-    values : array_like of float, shape (m,)
-        Visited in the order given.
-    n : int
-        Starts, drawn evenly from the rectangle, the same at every value.
-    x_reach, v_reach : (float, float)
-        Smallest and largest X and X' of the rectangle.
-    seed : int
-        Of the random numbers.
+    osc, parameter, values, **settling
+        As in `gearpair.sweep`.
+    n, x_reach, v_reach, seed
+        As in `basin_stability`; the starts are the same at every value.
     nearest : float
         Attractors of neighbouring values are one if their smallest and largest X differ by no more.
-    n_transient, max_period, n_exponent
-        As in `steady_state`.
 
     Returns
     -------
@@ -60,11 +49,6 @@ def continue_attractors(
         ``attractor_period``, ``attractor_impact_state``, ``attractor_x_min``, ``attractor_x_max``,
         ``attractor_exponent``, and ``tips_to``: at the first value without the attractor, the number of the one that
         its motion goes over to (-2 where it escapes), -1 elsewhere. Attractors are numbered as they turn up.
-
-    Raises
-    ------
-    ValueError
-        For an unknown parameter, a value out of range, or a rectangle without area.
 
     Notes
     -----
@@ -82,15 +66,14 @@ def continue_attractors(
     oscillators, checked = oscillators_along(osc, parameter, values)
     nearest = check_number("nearest", nearest, above=0.0)
     starts = random_starts(check_count("n", n), x_reach, v_reach, seed)
-    settings = SettleSettings(n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=1)
-    tables: list[dict[int, dict[str, float]]] = []
+    settings = MANY.having(settling)
+    entries: list[tuple[int, int, dict[str, float]]] = []  # row, number, what there is to tell
     places: dict[int, NDArray[np.float64]] = {}  # number -> the extremes it was last seen with
     points: dict[int, NDArray[np.float64]] = {}  # number at the value before -> a point of it
-    tips: list[dict[int, int]] = []
-    for each in oscillators:
+    for i, each in enumerate(oscillators):
         before = list(points)
         here = np.concatenate([starts, *(points[number][np.newaxis] for number in before)])
-        first = np.concatenate([seeds(n), np.arange(n, len(here))])
+        first = np.concatenate([scouts(n), np.arange(n, len(here))])
         out = settle_batch([each], here, settings, known=known_attractors(each, here[first], settings))
         columns = settled_columns(out)
         found, place = found_in(columns)
@@ -99,25 +82,20 @@ def continue_attractors(
         extremes = np.column_stack([table["x_min"], table["x_max"]])
         given, tipped = _matched(dict(zip(before, labels[n:].tolist(), strict=True)), places, extremes, nearest)
         counts = np.bincount(labels[:n][labels[:n] >= 0], minlength=len(extremes))
-        tables.append(
-            {
-                number: {"share": counts[k] / n, **{name: table[name][k] for name in ATTRACTOR_COLUMNS}}
-                for k, number in enumerate(given)
-            }
-        )
-        tips.append(tipped)
+        for k, number in enumerate(given):
+            entries.append(
+                (i, number, {"share": counts[k] / n, **{name: table[name][k] for name in ATTRACTOR_COLUMNS}})
+            )
+        entries += [(i, number, {"tips_to": to}) for number, to in tipped.items()]
         points = {number: out.points[table["first"][k], 0] for k, number in enumerate(given)}
         places |= {number: extremes[k] for k, number in enumerate(given)}
     shape = len(checked), len(places)
     columns = {name: np.full(shape, np.nan) for name in ("share", "x_min", "x_max", "exponent")}
     columns |= {name: np.full(shape, -1) for name in ("status", "impact_state", "tips_to")}
     columns["period"] = np.zeros(shape, np.int64)
-    for i, (rows, tipped) in enumerate(zip(tables, tips, strict=True)):
-        for number, row in rows.items():
-            for name, value in row.items():
-                columns[name][i, number] = value
-        for number, to in tipped.items():
-            columns["tips_to"][i, number] = to
+    for i, number, row in entries:
+        for name, value in row.items():
+            columns[name][i, number] = value
     named = {name if name in ("share", "tips_to") else f"attractor_{name}": column for name, column in columns.items()}
     variables = variables_of(named, (parameter, "attractor"), shape)
     return dataset(osc, variables, {parameter: checked}).assign_coords(attractor=np.arange(shape[1]))

@@ -41,15 +41,6 @@ def basin_entropy(labels: ArrayLike, box: int = 5) -> BasinEntropy:
     box : int
         Side of the boxes in starts; those that do not fit at the far edges are left out.
 
-    Returns
-    -------
-    BasinEntropy
-
-    Raises
-    ------
-    ValueError
-        For labels that are not a plane, or a box larger than it.
-
     Notes
     -----
     Daza, Wagemakers, Georgeot, Guéry-Odelin and Sanjuán (2016): in each box the Gibbs entropy
@@ -108,15 +99,6 @@ def uncertainty_exponent(labels: ArrayLike, *, longest: int | None = None) -> Un
         Such as ``basins(...).attractor``.
     longest : int, optional
         The largest error of X_0, in steps of the grid; a sixteenth of the row when not given.
-
-    Returns
-    -------
-    UncertaintyExponent
-
-    Raises
-    ------
-    ValueError
-        For labels that are not a plane, too few columns, or no boundary.
 
     Notes
     -----

@@ -18,11 +18,18 @@ from gearpair.methods.precision import (
     split_levels,
     work_precision,
 )
-from gearpair.methods.runge_kutta import Integrator, runge_kutta_section, runge_kutta_sweep, section_period
+from gearpair.methods.runge_kutta import (
+    DiagramOptions,
+    Integrator,
+    runge_kutta_section,
+    runge_kutta_sweep,
+    section_period,
+)
 from gearpair.methods.solvers import integrated_trajectory
 
 __all__ = [
     "CertifiedStep",
+    "DiagramOptions",
     "Integrator",
     "Precision",
     "Segment",

@@ -21,18 +21,10 @@ from gearpair.table import Table
 
 @dataclass(frozen=True)
 class CertifiedStep:
-    """One step that cannot pass the boundary: on it the distance is at least ``d + u h + m h^2 / 2``.
+    """One step from `t`, `length` widths of the cell long, that cannot pass the `boundary`, which is +1 or -1.
 
-    Attributes
-    ----------
-    t : float
-        Where it starts, in widths of the cell.
-    boundary : float
-        +1 or -1, the boundary that limits it.
-    d, u, m : float
-        Distance to the boundary, its rate, and a lower bound of its second derivative over the step (per t).
-    length : float
-        How far it goes.
+    On it the distance is at least ``d + u h + m h^2 / 2``: `d` at its start, `u` its rate, and `m` a lower bound of its
+    second derivative over the step (per t).
     """
 
     t: float
@@ -128,13 +120,9 @@ class Segment:
         return "steps"
 
     def certified_steps(self) -> tuple[list[CertifiedStep], float | None]:
-        """The search by certified steps alone, whatever certificate holds.
+        """The search by certified steps alone, whatever certificate holds, and the t where they arrive at the boundary.
 
-        Returns
-        -------
-        steps : list of CertifiedStep
-        crossing : float or None
-            The t at which the steps arrive at the boundary; None where they reach the end.
+        None where they reach the end.
         """
         tiny = ROUNDING * max(1.0, abs(self.series[0]))
         t = 0.0
@@ -173,25 +161,12 @@ class Segment:
 
 
 def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Segment]:
-    """Every segment of the motion from (x, v) at the start of a mesh period.
+    """Every segment of the motion from (x, v) over `n_periods` mesh periods, in the order of time.
 
-    Parameters
-    ----------
-    osc : Oscillator
-    x, v : float
-        X and X' at the start (dimensionless).
-    n_periods : int
-        Mesh periods, at least 1.
-
-    Returns
-    -------
-    list of Segment
-        In the order of time; a cell without an impact is one segment, each impact adds one.
+    A cell without an impact is one segment, each impact adds one.
 
     Raises
     ------
-    ValueError
-        For an argument out of range.
     RuntimeError
         Where an impact cannot be told from a near miss.
 
@@ -219,18 +194,11 @@ def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Se
 
 
 def certificate_examples(pieces: Iterable[Segment]) -> dict[str, Segment | None]:
-    """The segments that show the three certificates best.
+    """The segments that show the three certificates best; None where there is no such segment.
 
-    Parameters
-    ----------
-    pieces : iterable of Segment
-
-    Returns
-    -------
-    dict of str to Segment or None
-        ``"hull"``, a whole cell with a turn: the nearest to a boundary. ``"monotone"``, a whole cell: the crossing
-        nearest to its middle. ``"near miss"``: the closest approach without a crossing that needs steps.
-        ``"crossing by steps"``: the one that takes the most of them. None where there is no such segment.
+    ``"hull"``, a whole cell with a turn: the nearest to a boundary. ``"monotone"``, a whole cell: the crossing nearest
+    to its middle. ``"near miss"``: the closest approach without a crossing that needs steps. ``"crossing by steps"``:
+    the one that takes the most of them.
 
     Examples
     --------
@@ -270,14 +238,6 @@ def _closest(piece: Segment) -> float:
 def certificate_table(pieces: Iterable[Segment]) -> Table:
     """How many segments each certificate settles, and how many of these hold a crossing.
 
-    Parameters
-    ----------
-    pieces : iterable of Segment
-
-    Returns
-    -------
-    Table
-
     Examples
     --------
     >>> from gearpair.methods import segments
@@ -294,14 +254,6 @@ def certificate_table(pieces: Iterable[Segment]) -> Table:
 
 def series_table(osc: Oscillator) -> Table:
     """The constants of the power series and the cells that `osc` needs.
-
-    Parameters
-    ----------
-    osc : Oscillator
-
-    Returns
-    -------
-    Table
 
     Examples
     --------

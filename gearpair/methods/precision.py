@@ -6,14 +6,15 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from timeit import repeat
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
-from gearpair.ensembles.datasets import attributes, oscillators_along
-from gearpair.methods.runge_kutta import runge_kutta_section, section_period
+from gearpair.ensembles.datasets import oscillators_along
+from gearpair.methods.runge_kutta import DiagramOptions, diagram_rules, runge_kutta_section, section_diagram
 from gearpair.methods.solvers import integrated_trajectory
 from gearpair.motion.trajectories import Impacts, stroboscopic_map, trajectory
 from gearpair.oscillator import Oscillator
@@ -32,17 +33,9 @@ CUT = 0.38  # where `split_levels` divides each level
 
 @dataclass(frozen=True)
 class Precision:
-    """What one method did at one tolerance.
+    """What one `method` did at one tolerance `rtol`, nan for the exact flow, which has none.
 
-    Attributes
-    ----------
-    method : str
-    rtol : float
-        nan for the exact flow, which has none.
-    error : float
-        The largest error of X or X' after one mesh period, over all starts.
-    seconds : float
-        Measured time per mesh period.
+    `error` is the largest of X or X' after one mesh period, over all starts; `seconds` the measured time per period.
 
     Examples
     --------
@@ -61,14 +54,6 @@ def split_levels(osc: Oscillator) -> Oscillator:
 
     What differs between the two is rounding.
 
-    Parameters
-    ----------
-    osc : Oscillator
-
-    Returns
-    -------
-    Oscillator
-
     Examples
     --------
     >>> len(split_levels(Oscillator()).stiffness.levels)
@@ -83,15 +68,7 @@ def split_levels(osc: Oscillator) -> Oscillator:
 def impact_time_error(impacts: Impacts, reference: Impacts) -> float:
     """The largest time between an impact of `reference` and the nearest of `impacts` on the same side.
 
-    Parameters
-    ----------
-    impacts, reference : Impacts
-        Of two computations of one motion.
-
-    Returns
-    -------
-    float
-        0 where `reference` has none; inf where one has no counterpart.
+    0 where `reference` has none; inf where one has no counterpart.
 
     Examples
     --------
@@ -133,11 +110,6 @@ def work_precision(
         scipy's RK45, DOP853 and LSODA, the compiled RK45, and the exact flow. The exact flow's own error is what
         changes when its cells do (`split_levels`), its rounding. Compiled methods are timed over many periods.
 
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
-
     Examples
     --------
     >>> measured = work_precision(Oscillator(), 1.0, 0.0, n_starts=2, tolerances=[1e-6])
@@ -174,12 +146,7 @@ def work_precision(
 
 def _per_period(run: Callable[[], object]) -> float:
     """Seconds per mesh period of a compiled run over `TIMED_PERIODS`: the best of three, once it is compiled."""
-    times = []
-    for _ in range(4):
-        began = perf_counter()
-        run()
-        times.append(perf_counter() - began)
-    return min(times[1:]) / TIMED_PERIODS
+    return min(repeat(run, repeat=4, number=1)[1:]) / TIMED_PERIODS
 
 
 def plain_sweep(
@@ -189,28 +156,15 @@ def plain_sweep(
     *,
     x: float = 1.0,
     v: float = 0.0,
-    n_transient: int = 500,
-    n_samples: int = 128,
-    closeness: float = 0.01,
+    **options: Unpack[DiagramOptions],
 ) -> xr.Dataset:
     """The exact flow under the rules of `runge_kutta_sweep`: a fixed transient, and the period read off the points.
 
     What this misjudges is the fault of the rules; what `runge_kutta_sweep` misjudges beyond it, of the integrator.
-
-    Parameters
-    ----------
-    osc, parameter, values, x, v, n_transient, n_samples, closeness
-        As in `runge_kutta_sweep`; values are carried.
-
-    Returns
-    -------
-    xarray.Dataset
-        Dimensions ``(parameter, sample)``: ``x``, ``v``, and per value ``period`` (0 where none is seen).
+    Parameters and result are as there, but for ``calls``; values are carried.
 
     Raises
     ------
-    ValueError
-        For an argument out of range.
     RuntimeError
         Where the motion escapes.
 
@@ -220,43 +174,19 @@ def plain_sweep(
     [2, 2]
     """
     oscillators, checked = oscillators_along(osc, parameter, values)
-    n_samples = check_count("n_samples", n_samples, at_least=2)
+    n_transient, n_samples, closeness = diagram_rules(options)
     points = np.empty((len(checked), n_samples, 2))
     for i, each in enumerate(oscillators):
         motion = trajectory(each, x, v, n_samples - 1, n_transient=n_transient, samples_per_period=1)
         points[i, :, 0], points[i, :, 1] = motion.x, motion.v
         x, v = float(motion.x[-1]), float(motion.v[-1])
-    import xarray as xr  # here, so that importing gearpair stays quick
-
-    return xr.Dataset(
-        {
-            "x": ((parameter, "sample"), points[:, :, 0], attributes("x")),
-            "v": ((parameter, "sample"), points[:, :, 1], attributes("v")),
-            "period": (parameter, [section_period(section, closeness) for section in points], attributes("period")),
-        },
-        {parameter: (parameter, checked, attributes(parameter))},
-        {"seeding": "carry", "oscillator": repr(osc)},
-    )
+    return section_diagram(osc, {parameter: checked}, points, closeness, seeding="carry")
 
 
 def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:
-    """Where a diagram shows disorder though the motion is periodic.
+    """At which values a diagram shows disorder though the motion is periodic.
 
-    Parameters
-    ----------
-    exact : xarray.Dataset
-        Of `sweep`.
-    drawn : xarray.Dataset
-        Of `runge_kutta_sweep` or `plain_sweep` at the same values.
-
-    Returns
-    -------
-    ndarray of bool, shape (n,)
-
-    Raises
-    ------
-    ValueError
-        Where the two are not of the same values.
+    `exact` is of `sweep`; `drawn` of `runge_kutta_sweep` or `plain_sweep` at the same values.
 
     Examples
     --------
@@ -274,19 +204,9 @@ def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:
 
 
 def disorder_table(exact: xr.Dataset, drawn: Mapping[str, xr.Dataset]) -> Table:
-    """How often a diagram shows disorder where the motion is periodic, and a period where it is not.
+    """How often diagrams, by name, show disorder where the motion is periodic, and a period where it is not.
 
-    Parameters
-    ----------
-    exact : xarray.Dataset
-        Of `sweep`.
-    drawn : mapping of str to xarray.Dataset
-        Diagrams of the same values by name, of `runge_kutta_sweep` or `plain_sweep`.
-
-    Returns
-    -------
-    Table
-        Shares of the values, as `coarse_share` writes them.
+    Datasets as for `numerical_chaos`; shares of the values as `coarse_share` writes them.
 
     Examples
     --------
@@ -309,14 +229,7 @@ def disorder_table(exact: xr.Dataset, drawn: Mapping[str, xr.Dataset]) -> Table:
 def coarse_share(where: ArrayLike) -> str:
     """The share of true values, so coarse that rounding on another machine hardly changes it.
 
-    Parameters
-    ----------
-    where : array_like of bool
-
-    Returns
-    -------
-    str
-        To the nearest 10%; ``"under 10%"`` and ``"over 90%"`` near the ends, ``"all"`` if all are.
+    To the nearest 10%; ``"under 10%"`` and ``"over 90%"`` near the ends, ``"all"`` if all are.
 
     Examples
     --------

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_choice, check_count, check_number
+from gearpair._checks import check_choice, check_count, check_number, check_options
 from gearpair._cores import on_all_cores
 from gearpair._flow.runge_kutta import COMPLETE, Steps, integrate_lanes
-from gearpair.ensembles.datasets import attributes, oscillators_along
-from gearpair.motion.settling import SettleSettings, lanes_of
+from gearpair.ensembles.datasets import dataset, oscillators_along, section_variables
+from gearpair.motion.settling import ONE, lanes_of
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
+from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -37,9 +38,8 @@ def runge_kutta_section(
 
     Parameters
     ----------
-    osc : Oscillator
-    x, v : float
-        X and X' at the start of a mesh period (dimensionless).
+    osc, x, v
+        As in `gearpair.trajectory`.
     n_periods : int
         Mesh periods of one uninterrupted integration.
     n_kept : int, optional
@@ -54,8 +54,6 @@ def runge_kutta_section(
 
     Raises
     ------
-    ValueError
-        For an argument out of range.
     RuntimeError
         Where the integrator gives up.
 
@@ -72,10 +70,53 @@ def runge_kutta_section(
     n_kept = n_periods + 1 if n_kept is None else check_count("n_kept", n_kept)
     if n_kept > n_periods + 1:
         raise ValueError(f"n_kept must be at most n_periods + 1 = {n_periods + 1}, got {n_kept}")
-    points, status, _calls = _sections([osc], x, v, n_periods, n_kept, _adaptive(rtol, atol, n_periods), chain=1)
+    method = Integrator(rtol=rtol, atol=atol)
+    points, status, _calls = method.integrate([osc], x, v, n_periods - n_kept + 1, n_kept)
     if status[0] != COMPLETE:
         raise RuntimeError("RK45 gave up: the motion escapes to infinity, or rtol and atol are too small to reach")
     return points[0]
+
+
+class DiagramOptions(TypedDict, total=False):
+    """How a diagram is drawn by a fixed transient and read: keyword arguments of what draws one.
+
+    Parameters
+    ----------
+    n_transient : int
+        Mesh periods discarded at each value, 500 when not given.
+    n_samples : int
+        Section points kept per value, 128 when not given.
+    closeness : float
+        Section points this close count as one when the period is read off the diagram, 0.01 when not given.
+    """
+
+    n_transient: int
+    n_samples: int
+    closeness: float
+
+
+def diagram_rules(options: DiagramOptions) -> tuple[int, int, float]:
+    """`DiagramOptions` with what was not given, in their order, checked."""
+    check_options(options, DiagramOptions.__annotations__)
+    return (
+        check_count("n_transient", options.get("n_transient", 500), at_least=0),
+        check_count("n_samples", options.get("n_samples", 128), at_least=2),
+        check_number("closeness", options.get("closeness", 0.01), above=0.0),
+    )
+
+
+def section_diagram(
+    osc: Oscillator,
+    along: Mapping[str, NDArray[np.float64]],
+    points: NDArray[np.float64],
+    closeness: float,
+    **facts: Any,
+) -> xr.Dataset:
+    """Section points (n, n_samples, 2) along a parameter, and the periods that a reader sees in them."""
+    (parameter,) = along
+    period = [section_period(section, closeness) for section in points]
+    variables = section_variables(parameter, points) | {"period": (parameter, period, attributes("period"))}
+    return dataset(osc, variables, along, **facts)
 
 
 def runge_kutta_sweep(
@@ -86,11 +127,9 @@ def runge_kutta_sweep(
     x: float = 1.0,
     v: float = 0.0,
     seeding: Literal["carry", "restart"] = "carry",
-    n_transient: int = 500,
-    n_samples: int = 128,
     rtol: float = 1e-3,
     atol: float = 1e-6,
-    closeness: float = 0.01,
+    **options: Unpack[DiagramOptions],
 ) -> xr.Dataset:
     """`sweep` as RK45 draws it: a bifurcation diagram with the integrator's errors in it.
 
@@ -98,14 +137,10 @@ def runge_kutta_sweep(
     ----------
     osc, parameter, values, x, v, seeding
         As in `sweep`.
-    n_transient : int
-        Mesh periods discarded at each value.
-    n_samples : int
-        Section points kept per value.
     rtol, atol : float
         The integrator's tolerances; scipy's defaults.
-    closeness : float
-        Section points this close count as one when the period is read off the diagram.
+    **options
+        See `DiagramOptions`.
 
     Returns
     -------
@@ -114,11 +149,6 @@ def runge_kutta_sweep(
         smallest that all kept points repeat with (0 when none up to half of them), and ``calls`` of the
         right-hand side.
 
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
-
     Examples
     --------
     >>> runge_kutta_sweep(Oscillator(), "mesh_frequency", [1.65, 1.7], rtol=1e-9, atol=1e-9).period.values.tolist()
@@ -126,43 +156,19 @@ def runge_kutta_sweep(
     """
     oscillators, checked = oscillators_along(osc, parameter, values)
     check_choice("seeding", seeding, ("carry", "restart"))
-    n_transient = check_count("n_transient", n_transient, at_least=0)
-    n_samples = check_count("n_samples", n_samples, at_least=2)
-    check_number("closeness", closeness, above=0.0)
-    n_periods = n_transient + n_samples - 1
-    points, status, calls = _sections(
-        oscillators, x, v, n_periods, n_samples, _adaptive(rtol, atol, n_periods),
-        chain=len(oscillators) if seeding == "carry" else 1,
-    )  # fmt: skip
+    n_transient, n_samples, closeness = diagram_rules(options)
+    chain = len(oscillators) if seeding == "carry" else 1
+    method = Integrator(rtol=rtol, atol=atol)
+    points, status, calls = method.integrate(oscillators, x, v, n_transient, n_samples, chain)
     points[status != COMPLETE] = np.nan
-    import xarray as xr  # here, so that importing gearpair stays quick
-
-    return xr.Dataset(
-        {
-            "x": ((parameter, "sample"), points[:, :, 0], attributes("x")),
-            "v": ((parameter, "sample"), points[:, :, 1], attributes("v")),
-            "period": (parameter, [section_period(section, closeness) for section in points], attributes("period")),
-            "calls": (parameter, calls, {"long_name": "calls of the right-hand side", "units": "1"}),
-        },
-        {parameter: (parameter, checked, attributes(parameter))},
-        {"seeding": seeding, "oscillator": repr(osc), "rtol": rtol, "atol": atol},
-    )
+    drawn = section_diagram(osc, {parameter: checked}, points, closeness, seeding=seeding, rtol=rtol, atol=atol)
+    return drawn.assign(calls=(parameter, calls, attributes("calls")))
 
 
 def section_period(points: ArrayLike, closeness: float = 0.01) -> int:
-    """The period that a reader sees in section points: the smallest that all of them repeat with.
+    """The period that a reader sees in successive section points (n, 2): the smallest that all of them repeat with.
 
-    Parameters
-    ----------
-    points : array_like of float, shape (n, 2)
-        Successive section points.
-    closeness : float
-        Points this close (in X and in X') count as one.
-
-    Returns
-    -------
-    int
-        In mesh periods; 0 when none up to half the number of points.
+    Points as close as `closeness` in X and in X' count as one. 0 when none up to half the number of points.
 
     Examples
     --------
@@ -185,12 +191,9 @@ class Integrator:
     steps : int, optional
         Steps a mesh period. Alone, those of the classical method of order four; beside `rtol`, the least number.
     rtol : float, optional
-        The relative tolerance of RK45; the absolute one is a thousandth of it.
-
-    Raises
-    ------
-    ValueError
-        For neither, or a value out of range.
+        The relative tolerance of RK45.
+    atol : float, optional
+        Its absolute tolerance; a thousandth of `rtol` when not given.
 
     Examples
     --------
@@ -200,19 +203,22 @@ class Integrator:
 
     steps: int | None = None
     rtol: float | None = None
+    atol: float | None = None
 
     def __post_init__(self) -> None:
         if self.steps is None and self.rtol is None:
             raise ValueError("an integrator needs steps or rtol, got neither")
         if self.steps is not None:
             check_count("steps", self.steps)
-        if self.rtol is not None:
-            check_number("rtol", self.rtol, above=0.0)
+        for name, tolerance in (("rtol", self.rtol), ("atol", self.atol)):
+            if tolerance is not None:
+                check_number(name, tolerance, above=0.0)
 
     def __str__(self) -> str:
         if self.rtol is None:
             return f"RK4, {self.steps} steps"
-        return f"RK45, rtol {self.rtol:g}" + (f", at least {self.steps} steps" if self.steps else "")
+        atol = "" if self.atol is None else f", atol {self.atol:g}"
+        return f"RK45, rtol {self.rtol:g}{atol}" + (f", at least {self.steps} steps" if self.steps else "")
 
     def sections(
         self, oscillators: Sequence[Oscillator], x: float, v: float, n_discarded: int, n_kept: int, *, chain: int = 1
@@ -241,36 +247,20 @@ class Integrator:
         >>> Integrator(steps=400).sections([Oscillator()], 1.0, 0.0, 500, 2)[0].round(3).tolist()
         [[0.349, -0.256], [0.926, -0.281]]
         """
-        n_periods = n_discarded + n_kept - 1
-        if self.rtol is None:
-            steps = Steps(0.0, 0.0, self.steps or 0, 0)
-        else:
-            steps = _adaptive(self.rtol, 1e-3 * self.rtol, n_periods, self.steps or 0)
-        points, status, _calls = _sections(oscillators, x, v, n_periods, n_kept, steps, chain=chain)
+        points, status, _calls = self.integrate(oscillators, x, v, n_discarded, n_kept, chain)
         points[status != COMPLETE] = np.nan
         return points
 
-
-def _sections(
-    oscillators: Sequence[Oscillator],
-    x: float,
-    v: float,
-    n_periods: int,
-    n_kept: int,
-    steps: Steps,
-    *,
-    chain: int,
-) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
-    """Section points (n, n_kept, 2), status (n,) and calls of the right-hand side (n,)."""
-    n = len(oscillators)
-    starts = np.broadcast_to(check_start(x, v), (n, 2))
-    lanes = lanes_of(oscillators, starts, SettleSettings(n_transient=0))
-    points, counts = np.empty((n, n_kept, 2)), np.zeros((n, 2), np.int64)
-    on_all_cores(integrate_lanes, (lanes, chain, n_periods, steps, points, counts), n, chain)
-    return points, counts[:, 0], counts[:, 1]
-
-
-def _adaptive(rtol: float, atol: float, n_periods: int, per_period: int = 0) -> Steps:
-    """The steps of RK45 over `n_periods`."""
-    rtol, atol = check_number("rtol", rtol, above=0.0), check_number("atol", atol, above=0.0)
-    return Steps(rtol, atol, per_period, MAX_STEPS_PER_PERIOD * n_periods)
+    def integrate(
+        self, oscillators: Sequence[Oscillator], x: float, v: float, n_discarded: int, n_kept: int, chain: int = 1
+    ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+        """As `sections`: points (n, n_kept, 2), how each integration ended (n,), calls of the right-hand side (n,)."""
+        n, n_periods = len(oscillators), n_discarded + n_kept - 1
+        steps = Steps(0.0, 0.0, self.steps or 0, 0)
+        if self.rtol is not None:
+            atol = 1e-3 * self.rtol if self.atol is None else self.atol
+            steps = Steps(float(self.rtol), float(atol), self.steps or 0, MAX_STEPS_PER_PERIOD * n_periods)
+        lanes = lanes_of(oscillators, np.broadcast_to(check_start(x, v), (n, 2)), ONE)
+        points, counts = np.empty((n, n_kept, 2)), np.zeros((n, 2), np.int64)
+        on_all_cores(integrate_lanes, (lanes, chain, n_periods, steps, points, counts), n, chain)
+        return points, counts[:, 0], counts[:, 1]

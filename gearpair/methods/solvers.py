@@ -42,8 +42,6 @@ def integrated_trajectory(
 
     Raises
     ------
-    ValueError
-        For an argument out of range.
     RuntimeError
         Where the integrator fails.
 

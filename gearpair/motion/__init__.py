@@ -3,7 +3,7 @@
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.measures import ImpactMeasures, impact_measures
 from gearpair.motion.names import CHAOS, Motion, motions_of, periodic
-from gearpair.motion.settling import Status, transient_periods
+from gearpair.motion.settling import BatchOptions, SettleOptions, Status, transient_periods
 from gearpair.motion.spectra import Spectrum, spectrum
 from gearpair.motion.stability import lyapunov_exponents, multipliers_of
 from gearpair.motion.steady import SteadyState, steady_state
@@ -12,10 +12,12 @@ from gearpair.motion.zero_one import zero_one_test
 
 __all__ = [
     "CHAOS",
+    "BatchOptions",
     "ImpactMeasures",
     "ImpactState",
     "Impacts",
     "Motion",
+    "SettleOptions",
     "Spectrum",
     "Status",
     "SteadyState",

@@ -25,26 +25,13 @@ IMPACT_STATES = tuple(ImpactState)  # in the order of the codes
 
 
 def impact_state(x_min: float, x_max: float) -> ImpactState:
-    """The impact state from the extremes of X over a cycle.
+    """The impact state from the extremes of X over a cycle, ``x_min <= x_max``.
 
-    Parameters
-    ----------
-    x_min, x_max : float
-        Smallest and largest X (dimensionless), ``x_min <= x_max``.
-
-    Returns
-    -------
-    ImpactState
-        ``none_drive`` (x_min >= 1) and ``none_coast`` (x_max <= -1): always in contact, no impact.
-        ``single_drive`` (-1 <= x_min < 1 <= x_max): rattle on the drive side.
-        ``double`` (x_min < -1 and x_max > 1): clatter on both.
-        ``single_coast`` (x_min <= -1 and -1 < x_max <= 1, where nothing above applies).
-        ``never_in_contact``: within the backlash throughout.
-
-    Raises
-    ------
-    ValueError
-        For extremes that are not finite or not in order.
+    ``none_drive`` (x_min >= 1) and ``none_coast`` (x_max <= -1): always in contact, no impact.
+    ``single_drive`` (-1 <= x_min < 1 <= x_max): rattle on the drive side.
+    ``double`` (x_min < -1 and x_max > 1): clatter on both.
+    ``single_coast`` (x_min <= -1 and -1 < x_max <= 1, where nothing above applies).
+    ``never_in_contact``: within the backlash throughout.
 
     Notes
     -----

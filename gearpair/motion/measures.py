@@ -8,20 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._checks import check_count
+from gearpair._flow import measures as at
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.measures import (
-    FORCE,
-    HIGHEST,
-    IMPACTS,
-    IMPULSE,
-    LOWEST,
-    MEAN,
-    N_MEASURES,
-    RMS,
-    SHARE,
-    VELOCITY,
-    VELOCITY_SUM,
-)
 from gearpair._flow.observe import measure
 from gearpair._flow.walk import OK
 from gearpair.motion.settling import Status
@@ -77,23 +65,9 @@ MEASURES = tuple(field.name for field in fields(ImpactMeasures))
 
 
 def impact_measures(state: SteadyState, *, n_periods: int = 2000) -> ImpactMeasures:
-    """Blows, forces and displacements of a steady motion.
+    """Blows, forces and displacements of a steady motion that stayed bounded.
 
-    Parameters
-    ----------
-    state : SteadyState
-        Any that stayed bounded.
-    n_periods : int
-        Mesh periods to measure over where the motion is not periodic; a periodic one is measured over its cycle.
-
-    Returns
-    -------
-    ImpactMeasures
-
-    Raises
-    ------
-    ValueError
-        For a motion that did not stay bounded.
+    A periodic one is measured over its cycle, any other over `n_periods` mesh periods.
 
     Notes
     -----
@@ -114,7 +88,7 @@ def impact_measures(state: SteadyState, *, n_periods: int = 2000) -> ImpactMeasu
     """
     if state.status in (Status.ESCAPED, Status.CAPPED, Status.NOT_RUN):
         raise ValueError(f"only a motion that stays bounded has impact measures, got one with status {state.status!r}")
-    row = np.empty(N_MEASURES)
+    row = np.empty(at.N_MEASURES)
     x, v = map(float, state.points[0])
     span = state.period or check_count("n_periods", n_periods)
     status = measure(state.oscillator.cells, x, v, span, np.empty(TERMS), row)
@@ -124,23 +98,22 @@ def impact_measures(state: SteadyState, *, n_periods: int = 2000) -> ImpactMeasu
 
 
 def measure_columns(rows: NDArray[np.float64], mean_forces: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
-    """The kernel's rows (n, N_MEASURES) by the names of `ImpactMeasures`, each of shape (n,).
+    """The kernel's rows (n, `at.N_MEASURES`) by the names of `ImpactMeasures`, each of shape (n,).
 
     `mean_forces` (n,) are those of the rows' oscillators.
     """
     columns = {}
     for i, side in enumerate(("drive", "coast")):
-        impacts = rows[:, IMPACTS + i]
-        columns[f"{side}_impacts"] = impacts
-        columns[f"{side}_velocity"] = rows[:, VELOCITY + i]
-        columns[f"{side}_velocity_mean"] = _ratio(rows[:, VELOCITY_SUM + i], impacts)
-        columns[f"{side}_impulse"] = rows[:, IMPULSE + i]
-        columns[f"{side}_share"] = rows[:, SHARE + i]
-        columns[f"{side}_force"] = rows[:, FORCE + i]
+        columns[f"{side}_impacts"] = rows[:, at.IMPACTS + i]
+        columns[f"{side}_velocity"] = rows[:, at.VELOCITY + i]
+        columns[f"{side}_velocity_mean"] = _ratio(rows[:, at.VELOCITY_SUM + i], rows[:, at.IMPACTS + i])
+        columns[f"{side}_impulse"] = rows[:, at.IMPULSE + i]
+        columns[f"{side}_share"] = rows[:, at.SHARE + i]
+        columns[f"{side}_force"] = rows[:, at.FORCE + i]
     columns["flight_share"] = np.clip(1.0 - columns["drive_share"] - columns["coast_share"], 0.0, 1.0)
     columns["load_factor"] = _ratio(np.maximum(columns["drive_force"], columns["coast_force"]), np.abs(mean_forces))
-    columns["x_mean"], columns["x_rms"] = rows[:, MEAN], rows[:, RMS]
-    columns["peak_to_peak"] = rows[:, HIGHEST] - rows[:, LOWEST]
+    columns["x_mean"], columns["x_rms"] = rows[:, at.MEAN], rows[:, at.RMS]
+    columns["peak_to_peak"] = rows[:, at.HIGHEST] - rows[:, at.LOWEST]
     return {name: columns[name] for name in MEASURES}
 
 

@@ -6,14 +6,15 @@ import math
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Any, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
-from gearpair._checks import check_count
+from gearpair._checks import check_count, check_options
 from gearpair._cores import on_all_cores
 from gearpair._flow.capture import COLUMNS
 from gearpair._flow.measures import N_MEASURES
@@ -55,26 +56,50 @@ REMEDIES = {
 }
 
 
-@dataclass(frozen=True, kw_only=True)
-class SettleSettings:
-    """How long to wait for a motion to settle and how far to look.
+class SettleOptions(TypedDict, total=False):
+    """How long to wait for a motion to settle and how far to look: keyword arguments of all that settles motions.
 
     Parameters
     ----------
-    n_transient : int, optional
-        Mesh periods at most before a motion is judged; `transient_periods` of the oscillator when not given.
+    n_transient : int or None
+        Mesh periods at most before a motion is judged; `transient_periods` of the oscillator when None or not given.
     max_period : int
         The longest period looked for, in mesh periods.
     n_exponent : int
         Mesh periods over which the exponents of a motion that is not periodic are measured.
-    n_samples : int
-        Section points to keep.
-    measures : bool
-        Take the impact measures too.
-    most_work : int, optional
-        Mesh periods that a whole batch may take at most, shared equally by its motions; one that would need more than
-        its share is followed for its share and, unless captured, ends as ``"exhausted"``.
+
+    Notes
+    -----
+    What is taken where nothing is given: `ONE` for a motion and for a sweep, `MANY` for planes and maps.
+
+    Examples
+    --------
+    >>> from gearpair.motion.settling import MANY, ONE
+    >>> ONE.max_period, ONE.n_exponent, MANY.max_period, MANY.n_exponent
+    (64, 2000, 64, 500)
     """
+
+    n_transient: int | None
+    max_period: int
+    n_exponent: int
+
+
+class BatchOptions(SettleOptions, total=False):
+    """`SettleOptions` and a limit on what a whole batch may cost.
+
+    Parameters
+    ----------
+    most_work : int or None
+        Mesh periods that a whole batch may take at most, shared equally by its motions; one that would need more than
+        its share is followed for its share and, unless captured, ends as ``"exhausted"``. No limit when not given.
+    """
+
+    most_work: int | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SettleSettings:
+    """`BatchOptions` with their values, how many section points to keep, and whether to take the impact measures."""
 
     n_transient: int | None = None
     max_period: int = 64
@@ -91,9 +116,26 @@ class SettleSettings:
         for name in ("max_period", "n_exponent", "n_samples"):
             check_count(name, getattr(self, name))
 
+    def having(self, options: SettleOptions, allowed: type = SettleOptions, **own: Any) -> SettleSettings:
+        """These settings but for the `options` that somebody gave, and the caller's `own`."""
+        check_options(options, allowed.__annotations__)
+        return replace(self, **options, **own)
+
+    def whole_cycles(self) -> SettleSettings:
+        """These settings with room for a cycle of the longest period."""
+        return replace(self, n_samples=max(self.n_samples, self.max_period))
+
     def share_of_work(self, n: int) -> int:
         """Mesh periods that one of `n` motions may take."""
         return UNLIMITED if self.most_work is None else self.most_work // max(n, 1)
+
+
+# What is asked of a motion, by purpose: one, or a sweep, in full; many at a time; a chart, whose verdict on chaos needs
+# no more digits; periods alone.
+ONE = SettleSettings()
+MANY = SettleSettings(n_exponent=500, n_samples=1)
+CHART = SettleSettings(max_period=16, n_exponent=300, n_samples=16)
+PERIODS = SettleSettings(n_exponent=20, n_samples=1)
 
 
 def transient_periods(osc: Oscillator) -> int:
@@ -155,17 +197,22 @@ def settle_batch(
     limits = Limits(settings.max_period, settings.n_exponent, most)
     lanes = lanes_of(oscillators, starts, settings)
     arguments = (lanes, chain, limits, known or nothing_known(settings), out)
-    block = chain if chain > 1 else BLOCK_OF_ONE if len(oscillators) == 1 else BLOCK
+    single = chain == n  # one chain is carried along in parts, one after the other
+    block = BLOCK_OF_ONE if len(oscillators) == 1 else BLOCK if chain == 1 or single else chain
     with stoppable(out, progress, np.minimum(lanes.n_transient + settings.n_exponent, most).sum()) as done:
-        if chain == n or not cores:
-            step = BLOCK if chain == n else block
-            for first in range(0, n, step):
-                last = min(first + step, n)
-                settle_lanes(first, last, *arguments)
-                done(last - first)
-        else:
-            on_all_cores(settle_lanes, arguments, n, block, done)
+        on_all_cores(settle_lanes, arguments, n, block, done, cores and not single)
     return out
+
+
+def settle_both_ways(
+    oscillators: Sequence[Oscillator], starts: NDArray[np.float64], settings: SettleSettings, *, chain: int, **how: Any
+) -> tuple[Settled, Settled]:
+    """`settle_batch` of chains run up and of the same run down, each row where its oscillator stands among all."""
+    n = len(oscillators)
+    back = np.arange(n).reshape(-1, chain)[:, ::-1].ravel()
+    lanes = [*oscillators, *(oscillators[i] for i in back.tolist())]
+    out = settle_batch(lanes, np.concatenate([starts, starts[back]]), settings, chain=chain, **how)
+    return Settled._make(column[:n] for column in out), Settled._make(column[n:][back] for column in out)
 
 
 @contextmanager

@@ -50,11 +50,6 @@ def spectrum(trajectory: Trajectory, *, window: str = "boxcar") -> Spectrum:
     Spectrum
         Frequencies at multiples of ``1 / n_periods``.
 
-    Raises
-    ------
-    ValueError
-        For an unknown window.
-
     Examples
     --------
     >>> from gearpair import Oscillator, trajectory

@@ -20,25 +20,15 @@ def lyapunov_exponents(
 
     Parameters
     ----------
-    osc : Oscillator
-    x, v : float
-        X and X' at the start of a mesh period.
+    osc, x, v, n_transient
+        As in `trajectory`, and so are the errors.
     n_periods : int
-        Mesh periods to average over, at least 1.
-    n_transient : int
-        Mesh periods to run first and discard.
+        Mesh periods to average over, at least 1, after as many in which the tangent turns to where it grows most.
 
     Returns
     -------
     ndarray of float, shape (2,)
         Per unit tau, descending. Their sum is ``-2 zeta``, since ``det M = exp(-2 zeta T)`` exactly.
-
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
-    RuntimeError
-        Where the motion escapes or the walk is capped.
 
     Notes
     -----

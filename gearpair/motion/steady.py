@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from gearpair._equality import equal_by_value
 from gearpair._flow.settle import Settled
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.names import Motion
-from gearpair.motion.settling import STATUSES, SettleSettings, Status, settle_batch
+from gearpair.motion.settling import ONE, STATUSES, SettleOptions, Status, settle_batch
 from gearpair.motion.stability import multipliers_of
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
@@ -67,10 +68,8 @@ def steady_state(
     x: float = 1.0,
     v: float = 0.0,
     *,
-    n_transient: int | None = None,
-    max_period: int = 64,
-    n_exponent: int = 2000,
     n_samples: int = 256,
+    **settling: Unpack[SettleOptions],
 ) -> SteadyState:
     """Follow the motion from (x, v) until it has settled, and describe what it settled on.
 
@@ -79,23 +78,10 @@ def steady_state(
     osc : Oscillator
     x, v : float
         X and X' at the start of a mesh period.
-    n_transient : int, optional
-        Mesh periods at most before the motion is judged; `transient_periods` of the oscillator when not given.
-    max_period : int
-        The longest period looked for, in mesh periods.
-    n_exponent : int
-        Mesh periods over which the exponents of a motion that is not periodic are measured.
     n_samples : int
         Section points kept of a motion that is not periodic.
-
-    Returns
-    -------
-    SteadyState
-
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
+    **settling
+        See `SettleOptions`.
 
     Notes
     -----
@@ -112,10 +98,7 @@ def steady_state(
     period 2, single-sided
     """
     start = check_start(x, v)
-    settings = SettleSettings(
-        n_transient=n_transient, max_period=max_period, n_exponent=n_exponent, n_samples=max(n_samples, max_period)
-    )
-    out = settle_batch([osc], np.array([start]), settings)
+    out = settle_batch([osc], np.array([start]), ONE.having(settling, n_samples=n_samples).whole_cycles())
     return describe(osc, out, 0)
 
 

@@ -127,8 +127,6 @@ def stroboscopic_map(
 
     Raises
     ------
-    ValueError
-        For starts that are not finite or do not broadcast, or an `n` below 0.
     RuntimeError
         Where the walk is capped; the message says what to do.
 
@@ -182,14 +180,8 @@ def trajectory(
     samples_per_period : int
         Samples per mesh period.
 
-    Returns
-    -------
-    Trajectory
-
     Raises
     ------
-    ValueError
-        For an argument out of range.
     RuntimeError
         Where the motion escapes to infinity or the walk is capped.
 

@@ -11,7 +11,7 @@ FEWEST = 200  # values below which the test says little
 
 
 def zero_one_test(values: ArrayLike, n_frequencies: int = 100) -> float:
-    """The 0-1 test's growth rate K of a series: near 1 for chaos, near 0 for regular motion.
+    """The 0-1 test's growth rate K of a series, from -1 to 1: near 1 for chaos, near 0 for regular motion.
 
     The series, less its mean, drives a walk in the plane, ``p(n) + i q(n) = sum of values[j] exp(i j c)``. Chaos
     makes it diffuse: its mean square displacement grows in proportion to n; a regular series keeps it bounded.
@@ -22,16 +22,6 @@ def zero_one_test(values: ArrayLike, n_frequencies: int = 100) -> float:
         Successive section points of one coordinate, at least 200; not oversampled.
     n_frequencies : int
         Frequencies c, spread evenly over (pi/5, 4 pi/5); K is the median over them.
-
-    Returns
-    -------
-    float
-        From -1 to 1.
-
-    Raises
-    ------
-    ValueError
-        For fewer than 200 values, or values that are not finite.
 
     Notes
     -----

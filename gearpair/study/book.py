@@ -17,7 +17,7 @@ from typing import Any
 import nbformat
 import yaml
 
-from gearpair.study.cache import Cache, library_digest, tree_digest, write_whole
+from gearpair.study.cache import Cache, library_digest, tree_digest
 from gearpair.study.chapters import Chapter, read_chapter
 from gearpair.study.claims import claimed
 from gearpair.study.errors import StudyError
@@ -69,14 +69,14 @@ class Book:
 
     def pages(self) -> list[str]:
         """All pages after the first, in order."""
-        return _files({key: value for key, value in self.toc.items() if key != "root"})
+        return _files(self.toc)
 
     def chapter_names(self) -> list[str]:
         """Names of the chapters, in the order of the table of contents."""
-        return [file.removeprefix(EXECUTED) for file in _files(self.toc) if file.startswith(EXECUTED)]
+        return [file.removeprefix(EXECUTED) for file in self.pages() if file.startswith(EXECUTED)]
 
     def chapters(self) -> list[Chapter]:
-        """All chapters, read."""
+        """All chapters, in that order."""
         return [self.chapter(name) for name in self.chapter_names()]
 
     def chapter(self, name: str) -> Chapter:
@@ -110,8 +110,7 @@ def _files(entry: Any) -> list[str]:
     if isinstance(entry, list):
         return [file for item in entry for file in _files(item)]
     if isinstance(entry, dict):
-        here = [entry["file"]] if "file" in entry else []
-        return here + [file for value in entry.values() if isinstance(value, list) for file in _files(value)]
+        return [file for key, value in entry.items() for file in ([value] if key == "file" else _files(value))]
     return []
 
 
@@ -122,21 +121,10 @@ def need_book_extra() -> None:
 
 
 def build_book(book: Book, target: Path | None = None) -> Path:
-    """Execute the chapters and variants that have changed, render the site, and put it in place of the last one.
+    """Execute what has changed, render the site in `target` (`Book.target` if not given); return its first page.
 
     Everything is made beside the last good book, which a failure leaves untouched; what was executed until then is
     kept for the next time. Nothing is rendered where nothing has changed.
-
-    Parameters
-    ----------
-    book : Book
-    target : Path, optional
-        The directory to build in; `Book.target` when not given.
-
-    Returns
-    -------
-    Path
-        The site's first page.
 
     Raises
     ------
@@ -160,11 +148,12 @@ def build_book(book: Book, target: Path | None = None) -> Path:
         site = render(source, staging / "site", book)
         _put_in_place(source / EXECUTED, chapters)
         _put_in_place(site, html)
-        write_whole(stamp, json.dumps([made_from, tree_digest(html)]))
+        stamp.write_text(json.dumps([made_from, tree_digest(html)]), encoding="utf-8")
     return html / "index.html"
 
 
 def _read_stamp(path: Path) -> Any:
+    """What the last build was made from and came to; None where that is not told whole."""
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -204,10 +193,7 @@ def write_toc(source: Path, toc: Any) -> None:
 def render(source: Path, output: Path, book: Book) -> Path:
     """Build the site below `output` from `source`, a copy of the book with its executed chapters; return where it is.
 
-    Raises
-    ------
-    StudyError
-        If there was a warning.
+    A warning is an error.
     """
     code, told = run_jupyter_book(source, output, "--warningiserror", "--keep-going")
     if code:
@@ -222,14 +208,11 @@ def run_jupyter_book(source: Path, output: Path, *options: str) -> tuple[int, st
     """Render the sources; return the exit code and what was said."""
     code = "import sys; from jupyter_book.cli.main import main; sys.exit(main())"
     command = [sys.executable, "-c", code, "build", str(source), "--path-output", str(output), "--all", "--quiet"]
-    done = subprocess.run(
-        [*command, *options], check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    )
+    done = subprocess.run([*command, *options], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.returncode, done.stdout
 
 
 def _put_in_place(new: Path, old: Path) -> None:
-    """Let the directory `new` take the place of `old`."""
     aside = old.with_name(old.name + ".old")
     shutil.rmtree(aside, ignore_errors=True)
     if old.exists():

@@ -9,14 +9,11 @@ from typing import Any
 import numpy as np
 
 from gearpair.motion.settling import transient_periods
-from gearpair.oscillator import Oscillator
-from gearpair.parameters import PARTS
-from gearpair.stiffness import StiffnessWave
+from gearpair.parameters import PARTS, STANDS_FOR, oscillator_of
 from gearpair.study.chapters import Chapter
 
 WORTH_TELLING = 3.0
 SAMPLES = 9  # oscillators along an axis whose cost stands for all
-WAVE = ("contact_ratio", "a", "b", "reading")
 
 
 def work_ratio(chapter: Chapter, values: Mapping[str, Any]) -> float:
@@ -48,11 +45,10 @@ def work_ratio(chapter: Chapter, values: Mapping[str, Any]) -> float:
 
 def _cost(values: Mapping[str, Any], stands_for: Mapping[str, str]) -> float:
     """Mesh periods of one motion times their length, on average along the chapter's axis."""
-    scalars = {name: values[name] for name in Oscillator().parameters if name in values and name not in WAVE}
-    osc = Oscillator(**scalars, stiffness=StiffnessWave.rectangular(**{n: values[n] for n in WAVE if n in values}))
+    osc = oscillator_of(values)
     oscillators = [osc]
     if "highest" in values:
-        axis = stands_for.get("highest", "mesh_frequency")
+        axis = {**STANDS_FOR, **stands_for}["highest"]
         ends = values.get("lowest", values["highest"] / SAMPLES), values["highest"]
         oscillators = [osc.replace(**{axis: float(value)}) for value in np.linspace(*ends, SAMPLES)]
     longest = values.get("n_transient", np.inf)

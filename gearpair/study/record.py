@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import os
 import platform
+import re
 import subprocess
 from collections.abc import Mapping
+from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -17,6 +19,10 @@ from gearpair.study.chapters import Chapter
 
 TOLD = ("gearpair", "numpy", "scipy", "numba", "matplotlib", "xarray", "papermill")
 RECORD = "how-it-was-made"  # the tag and the id of the last cell
+KERNEL = {  # what a notebook tells of its kernel: nothing of this machine's
+    "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+    "language_info": {"name": "python"},
+}
 
 
 def circumstances(notebook: Path, seconds: float) -> dict[str, Any]:
@@ -30,13 +36,11 @@ def circumstances(notebook: Path, seconds: float) -> dict[str, Any]:
 
 
 def versions(packages: tuple[str, ...]) -> dict[str, str]:
-    """The installed versions of `packages`, of those that are installed."""
+    """The versions of those `packages` that are installed."""
     found = {}
     for package in packages:
-        try:
+        with suppress(PackageNotFoundError):
             found[package] = version(package)
-        except PackageNotFoundError:
-            continue
     return found
 
 
@@ -52,12 +56,9 @@ def revision(directory: Path) -> str:
 
 def processor() -> str:
     """The processor's name as the system gives it."""
-    try:
-        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    except OSError:
-        pass
+    with suppress(OSError):
+        if name := re.search("^model name.*: (.*)", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.MULTILINE):
+            return name[1].strip()
     return platform.processor() or platform.machine()
 
 
@@ -74,8 +75,7 @@ def recorded(
     warned = [number for number, cell in enumerate(ran) if any(out.get("name") == "stderr" for out in cell.outputs)]
     notebook.metadata = nbformat.from_dict(
         {
-            "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
-            "language_info": {"name": "python"},
+            **KERNEL,
             "gearpair": {**made, "chapter": chapter.name, "parameters": dict(values), "warned": warned},
         }
     )

@@ -8,7 +8,7 @@ from benchmarks.labels import Case, cases, compare
 from gearpair import _cores
 from gearpair._flow.capture import COLUMNS, OWNER, QVV, QXV, QXX, inside, surround
 from gearpair._flow.closed_form import TERMS
-from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, seeds
+from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, scouts
 from gearpair.ensembles.datasets import settled_columns
 from gearpair.motion.settling import SettleSettings, settle_batch
 from tests.support.oscillators import level
@@ -111,7 +111,7 @@ def test_basins_do_not_depend_on_threads_or_order(monkeypatch):
     assert gp.basins(osc, x, v, n_exponent=100).identical(plain)
     starts = np.stack(np.meshgrid(x, v), axis=-1).reshape(-1, 2)
     settings = SettleSettings(n_exponent=100, n_samples=1)
-    known = known_attractors(osc, starts[seeds(len(starts))], settings)
+    known = known_attractors(osc, starts[scouts(len(starts))], settings)
     shuffled = np.random.default_rng(0).permutation(len(starts))
     there, back = (
         settle_batch([osc], starts, settings, known=known),

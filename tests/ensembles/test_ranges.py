@@ -117,7 +117,7 @@ def test_following_both_ways_keeps_to_one_motion():
     """
     state = gp.steady_state(OSC, -2.0, 1.5)
     assert (state.period, state.impact_state) == (1, "double")
-    falling, rising = gp.ensembles.follow(state, "mesh_frequency", [0.68, 0.69, 0.71, 0.72])
+    falling, rising = gp.ensembles.carried_sweeps(state, "mesh_frequency", [0.68, 0.69, 0.71, 0.72])
     assert falling.mesh_frequency.values.tolist() == [0.69, 0.68]
     assert rising.mesh_frequency.values.tolist() == [0.71, 0.72]
     life = gp.ensembles.range_of(state, "mesh_frequency", np.arange(0.6, 1.0, 0.004))
@@ -131,7 +131,7 @@ def test_a_jump_to_another_motion_of_the_same_period_ends_a_life():
     """The large period 2 ends in a fold above 1.05, but the sweep falls onto the small period 2 that lives there."""
     state = gp.steady_state(OSC.replace(mesh_frequency=1.3), -2.0, 0.0)
     values = np.arange(1.04, 1.3, 0.002)
-    below = gp.ensembles.follow(state, "mesh_frequency", values)[0]
+    below = gp.ensembles.carried_sweeps(state, "mesh_frequency", values)[0]
     assert below.period.values[-1] == 2 and below.x_max.values[-1] < 1.5 < state.x_max
     orbit = gp.periodic_orbit(state.oscillator, *state.points[0].tolist(), 2)
     (fold,) = [b for b in gp.continue_orbit(orbit, "mesh_frequency", 1.0, 1.4).bifurcations if b.kind == "fold"]

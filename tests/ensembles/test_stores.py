@@ -49,7 +49,7 @@ def test_finished_blocks_are_not_computed_again(tmp_path, monkeypatch):
     gp.parameter_map(OSC, AXES, **MAP, store=tmp_path / "map")
     group = zarr.open_group(tmp_path / "map", mode="r+")
     assert group["done"][:].tolist() == [True]
-    monkeypatch.setattr(stores, "fill_block", lambda *arguments, **options: pytest.fail("computed again"))
+    monkeypatch.setattr(stores, "store_block", lambda *arguments, **options: pytest.fail("computed again"))
     gp.parameter_map(OSC, AXES, **MAP, store=tmp_path / "map")
     group["done"][0] = False
     with pytest.raises(pytest.fail.Exception, match="computed again"):

@@ -41,12 +41,6 @@ def shown(page, name: str) -> str:
     return page.evaluate(f"document.querySelector('[data-value={name}]').textContent").replace("−", "-")
 
 
-def place(page, element: str) -> dict:
-    return page.evaluate(
-        f"(({{ x, y, width, height }}) => ({{ x, y, width, height }}))({element}.getBoundingClientRect())"
-    )
-
-
 def state(page) -> dict:
     return page.evaluate(f"{EXPLORER}.state")
 
@@ -184,6 +178,7 @@ def test_an_address_typed_into_the_open_page_is_followed(explorer):
 
 def test_dragging_a_slider_shows_a_motion_for_every_move(explorer):
     page = explorer()
+    wait_for_diagram(page)  # its legend moves what is below
     page.evaluate(f"""{{
       const explorer = {EXPLORER}, draw = explorer.draw;
       window.drawn = [];
@@ -192,9 +187,11 @@ def test_dragging_a_slider_shows_a_motion_for_every_move(explorer):
         return draw.apply(explorer, all);
       }};
     }}""")
-    box = place(page, "document.getElementById('gp-damping_ratio')")
+    slider = page.locator("#gp-damping_ratio")
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
     y = box["y"] + box["height"] / 2
-    page.mouse.move(box["x"] + 0.2 * box["width"], y)
+    slider.hover(position={"x": 0.2 * box["width"], "y": box["height"] / 2})
     page.mouse.down()
     wanted = []
     for share in np.linspace(0.2, 0.9, 15):
@@ -232,9 +229,8 @@ def test_a_motion_is_announced_once_it_stands(explorer):
 
 def test_a_click_into_the_phase_portrait_is_a_start(explorer):
     page = explorer("#x=-2.3&v=1.5")
-    box = place(page, part("phase"))
     x, y = page.evaluate(f"[{EXPLORER}.phasePlot.x(1), {EXPLORER}.phasePlot.y(0)]")
-    page.mouse.click(box["x"] + round(x), box["y"] + round(y))
+    page.locator("[data-part=phase]").click(position={"x": round(x), "y": round(y)})
     page.wait_for_function(f"Math.abs({EXPLORER}.state.x - 1) < 0.05 && {SETTLED}")
     now = state(page)
     truth = gp.steady_state(gp.Oscillator(), now["x"], now["v"])
@@ -252,11 +248,10 @@ def test_a_point_of_the_diagram_shows_its_motion(explorer):
       columns.find((one) => one.falling && one.motion === "period 1" && one.points[0].x < other(one).points[0].x - 0.5);
     }}""")
     assert column, "the two sweeps meet nowhere"
-    box = place(page, part("diagram"))
     plot = f"{EXPLORER}.diagram.plot"
     point = column["points"][0]
     x, y = page.evaluate(f"[{plot}.x({column['value']}), {plot}.y({point['x']})]")
-    page.mouse.click(box["x"] + x, box["y"] + y)
+    page.locator("[data-part=diagram]").click(position={"x": x, "y": y})
     page.wait_for_function(f"{EXPLORER}.state.x !== 1 && {SETTLED}")
     now = state(page)
     osc = gp.Oscillator(damping_ratio=0.06, mesh_frequency=now["mesh_frequency"])

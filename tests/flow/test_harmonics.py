@@ -121,7 +121,7 @@ def test_integrators_honour_them():
 
 
 def test_a_block_takes_its_cells_in_one_step():
-    """The cells of five harmonics are narrower, the blocks that the march takes are those of one."""
+    """The cells of five harmonics are narrower, the blocks that the walk takes are those of one."""
     many, one = LOADED.cells, gp.Oscillator().cells
     assert len(many.level) > 2 * len(one.level) and len(many.block_width) == len(one.block_width) == len(one.level)
     assert np.allclose(many.block_width, one.block_width, rtol=1e-15)

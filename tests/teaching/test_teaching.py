@@ -13,10 +13,11 @@ import pytest
 
 import gearpair as gp
 from gearpair import teaching
-from gearpair.teaching.personal import DAMPING_RATIOS, ERROR_AMPLITUDES, GEAR_TEETH, MEAN_FORCES, PINION_TEETH
+from gearpair.teaching.personal import CHOICES
 from tests.support import ROOT
 
 STUDENTS = [f"student{number}" for number in range(40)]
+ENDS = {name: (choices[0], choices[-1]) for name, choices in CHOICES.items()}
 
 
 def test_forty_students_have_forty_drives():
@@ -38,14 +39,14 @@ def test_what_cannot_be_an_id_is_refused_in_one_sentence(student_id):
 
 
 def test_every_pair_of_teeth_can_be_cut_and_has_a_two_level_wave():
-    for pinion, gear in product(PINION_TEETH, GEAR_TEETH):
+    for pinion, gear in product(CHOICES["pinion_teeth"], CHOICES["gear_teeth"]):
         assert 1.6 < gp.SpurPair(pinion_teeth=pinion, gear_teeth=gear).contact_ratio < 1.8
 
 
-@pytest.mark.parametrize(("pinion", "gear"), [(PINION_TEETH[0], GEAR_TEETH[0]), (PINION_TEETH[-1], GEAR_TEETH[-1])])
-@pytest.mark.parametrize("force", [MEAN_FORCES[0], MEAN_FORCES[-1]])
-@pytest.mark.parametrize("error", [ERROR_AMPLITUDES[0], ERROR_AMPLITUDES[-1]])
-@pytest.mark.parametrize("damping", [DAMPING_RATIOS[0], DAMPING_RATIOS[-1]])
+@pytest.mark.parametrize(("pinion", "gear"), [*zip(ENDS["pinion_teeth"], ENDS["gear_teeth"], strict=True)])
+@pytest.mark.parametrize("force", ENDS["mean_force"])
+@pytest.mark.parametrize("error", ENDS["error_amplitude"])
+@pytest.mark.parametrize("damping", ENDS["damping_ratio"])
 @pytest.mark.slow
 def test_every_corner_of_the_choices_has_what_the_assignments_ask_about(pinion, gear, force, error, damping):
     shape = gp.mesh_stiffness(gp.SpurPair(pinion_teeth=pinion, gear_teeth=gear)).rectangular()

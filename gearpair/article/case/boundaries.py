@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from gearpair.article import published
-from gearpair.article.case.scoring import REACH, axis
+from gearpair.article.case.scoring import FARTHEST, axis
 from gearpair.article.case.trials import Trial
 from gearpair.article.published import Boundary
 from gearpair.article.readings import Hypothesis
@@ -81,7 +81,7 @@ def boundary_table(trials: Mapping[str, Sequence[Trial]], bifurcations: Mapping[
         cells = ["–" if value is None else f"{value:.{digits}f}" for value in drawn]
         for each in bifurcations.values():
             b = named_bifurcation(boundary, each)
-            if b is None or abs(b.value - boundary.value) > REACH * (upper - lower):
+            if b is None or abs(b.value - boundary.value) > FARTHEST * (upper - lower):
                 cells.append("–")
             else:
                 cells.append(f"{b.kind} of period {b.period} ({b.value - boundary.value:+.{digits + 1}f})")

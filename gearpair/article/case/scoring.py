@@ -48,7 +48,7 @@ def random_tables(parameter: str, n: int, *, seed: int = 0, n_values: int = 101)
 
 
 NARROW = 1 / 50  # of the axis: narrower runs are dropped before boundaries and sequence are read off
-REACH = 1 / 10  # of the axis: a boundary found this far from the published one earns nothing
+FARTHEST = 1 / 10  # of the axis: a boundary found this far from the published one earns nothing
 
 
 @dataclass(frozen=True)
@@ -195,7 +195,7 @@ def score(parameter: str, values: ArrayLike, periods: ArrayLike) -> Score:
     for boundary, kinds in zip(published.boundaries(parameter), pairwise(expected), strict=True):
         places = [change.value for change in changes if (change.below, change.above) == kinds]
         matches.append(Match(boundary, min(places, key=lambda place: abs(place - boundary.value), default=None)))
-    closeness = [0.0 if m.distance is None else max(0.0, 1.0 - abs(m.distance) / (REACH * width)) for m in matches]
+    closeness = [0.0 if m.distance is None else max(0.0, 1.0 - abs(m.distance) / (FARTHEST * width)) for m in matches]
     sequence = tuple(run[0] for run in runs)
     common = 2.0 * _common(sequence, expected) / (len(sequence) + len(expected))
     return Score(parameter, agreement, float(np.mean(closeness)), common, sequence, changes, tuple(matches))

@@ -14,7 +14,7 @@ from gearpair._checks import check_choice, check_count
 from gearpair.article.case.scoring import Score, axis, score
 from gearpair.article.readings import CHOICES, FORCINGS, Hypothesis
 from gearpair.methods.runge_kutta import Integrator, section_period
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.settling import PERIODS, SettleSettings, settle_batch
 from gearpair.oscillator import Oscillator
 from gearpair.table import Table
 
@@ -61,7 +61,7 @@ def followed(
 
 def drawn_settings(n_discarded: int | None) -> SettleSettings:
     """How a motion settles whose period alone is read off."""
-    return SettleSettings(n_transient=n_discarded, max_period=MAX_PERIOD, n_exponent=20, n_samples=MAX_PERIOD)
+    return PERIODS.having({"n_transient": n_discarded, "max_period": MAX_PERIOD})
 
 
 @dataclass(frozen=True)

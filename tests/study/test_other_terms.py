@@ -9,7 +9,7 @@ from gearpair.study.book import Book
 from gearpair.study.cli import main
 from tests.support.notebooks import MEAN, write_notebook
 from tools.accept import accept_outputs
-from tools.stability import CONDITIONS, NUDGED, compared, environment, stability
+from tools.other_terms import CONDITIONS, NUDGED, compared, environment, stability
 
 RAW = "print(repr(a))"  # all digits of a parameter
 THREADS = "import os\nprint(os.environ.get('NUMBA_NUM_THREADS'))"

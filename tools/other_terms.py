@@ -117,4 +117,4 @@ def stability(root: Path | None, chapters: tuple[str, ...]) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main(run=stability, name="tools.stability"))
+    sys.exit(main(run=stability, name="tools.other_terms"))
