@@ -38,9 +38,9 @@ def check_number(
 
 
 def check_fields(of: Any, **limits: Mapping[str, float]) -> None:
-    """Let fields of a frozen dataclass be floats within limits, as `check_number` has them; a field of None stays."""
+    """Let fields of a frozen dataclass be floats within limits, as `check_number` has them, or None by default."""
     for name, limit in limits.items():
-        if getattr(of, name) is not None:
+        if getattr(of, name) is not None or getattr(type(of), name, 0.0) is not None:
             object.__setattr__(of, name, check_number(name, getattr(of, name), **limit))
 
 

@@ -179,7 +179,7 @@ class GearDrive:
         Returns
         -------
         GearDrive
-            Without `mesh` where the stiffness is no longer that of the pair.
+            Without `mesh` where the stiffness is given, without a blank where its inertia is.
 
         Examples
         --------
@@ -197,7 +197,9 @@ class GearDrive:
                 if self.mesh is None:
                     raise ValueError(f"{name} can be changed only where the drive comes from GearDrive.from_pair")
         ratio = changes.pop("damping_ratio", None)
-        changes |= {f"{who}_blank": None for who in ("pinion", "gear") if f"{who}_inertia_kg_m2" in changes}
+        forgotten = {f"{who}_blank": None for who in ("pinion", "gear") if f"{who}_inertia_kg_m2" in changes}
+        if changes.get("stiffness", self.stiffness) != self.stiffness:
+            changes.setdefault("mesh", None)
         if self.mesh is not None and (drawing := {n: changes.pop(n) for n in (*DRAWING, *PAIR) if n in changes}):
             pair, coupling = drawing.pop("pair", self.mesh.pair), drawing.pop("coupling", self.mesh.coupling)
             n_levels = drawing.pop("n_levels", len(self.stiffness.levels))
@@ -206,9 +208,7 @@ class GearDrive:
             ratio = self.damping_ratio if ratio is None else ratio
         if "transmission_error_um" in changes:
             changes = self._error(changes.pop("transmission_error_um")) | changes
-        if "mesh" not in changes and changes.get("stiffness", self.stiffness) != self.stiffness:
-            changes["mesh"] = None
-        changed = dataclasses.replace(self, **changes)
+        changed = dataclasses.replace(self, **(changes | forgotten))
         if ratio is None:
             return changed
         damping = check_number("damping_ratio", ratio, at_least=0.0) * changed.critical_damping_n_s_per_m
@@ -218,9 +218,9 @@ class GearDrive:
         """The fields of a transmission error from its amplitude, or from all its harmonics."""
         if isinstance(given, Real):
             size = check_number("transmission_error_um", given, at_least=0.0)
-            share = size / self.transmission_error_um if self.transmission_error_um else 1.0
-            scaled = [Harmonic(order, each * share, phase) for order, each, phase in self.error_harmonics]
-            return {"transmission_error_um": size, "error_harmonics": tuple(scaled)}
+            present = self.transmission_error_um
+            others = [Harmonic(n, each * size / present, phase) for n, each, phase in self.error_harmonics if present]
+            return {"transmission_error_um": size, "error_harmonics": tuple(others) or self.error_harmonics}
         error = check_harmonics("transmission_error_um", given, lowest=1)
         first = next((each for each in error if each.order == 1), Harmonic(1, 0.0))
         return {

@@ -98,6 +98,7 @@ def test_a_changed_pair_brings_what_follows_from_it():
         assert changed.mesh.pair == other and changed.damping_ratio == pytest.approx(0.06, rel=1e-14)
         assert changed.replace(damping_n_s_per_m=made.damping_n_s_per_m) == made
     heavy = DRIVE.replace(gear_inertia_kg_m2=1.0)
+    assert heavy.damping_n_s_per_m == DRIVE.damping_n_s_per_m and heavy.mesh is DRIVE.mesh
     assert heavy.gear_blank is None and heavy.replace(module_mm=2.5).gear_inertia_kg_m2 == 1.0
     flat = DRIVE.replace(stiffness=gp.StiffnessWave((0.0,), (1.0,)))
     assert flat.mesh is None and DRIVE.replace(stiffness=DRIVE.stiffness).mesh is DRIVE.mesh
@@ -215,6 +216,7 @@ def test_harmonics_give_the_error_back():
             "addendum can be changed only where",
         ),
         (lambda: DRIVE.replace(addendum=3.0), "tooth pointed"),
+        (lambda: DRIVE.replace(backlash_um=None), "backlash_um must be a finite number above 0, got None"),
         (lambda: DRIVE.replace(damping_ratio=-1.0), "damping_ratio must be .* at least 0, got -1.0"),
         (lambda: DRIVE.at_speed(-1.0), "pinion_speed_rpm must be .* above 0, got -1.0"),
         (

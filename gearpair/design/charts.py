@@ -82,10 +82,8 @@ def speed_chart(
     oscillators = oscillators_at(drive, speeds)
     up, down = carried_runs([oscillators], n_transient, progress=progress)[0]
     started = settled_starts(oscillators, n_starts, n_transient, progress=progress)
-    columns: dict[str, list[list[Any]]] = {
-        name: [[], [], []] for name in ("motion", "period", "impact_state", *MEASURES)
-    }
     n_motions, worst_share = [], []
+    shown: tuple[list[tuple[SteadyState, dict[str, float]]], ...] = ([], [], [])  # of each run
     for i in range(len(speeds)):
         found, counts = [up[i]], [0]
         for state, count in [(down[i], 0), *((each, 1) for each in started[i])]:
@@ -100,13 +98,14 @@ def speed_chart(
         down_at = next(j for j, other in enumerate(found) if same_motion(other, down[i]))
         n_motions.append(len(found))
         worst_share.append(counts[worst] / n_starts if n_starts else np.nan)
-        for run, j in enumerate((0, down_at, worst)):
-            state = found[j]
-            columns["motion"][run].append(str(state.motion.kind))
-            columns["period"][run].append(state.period or 0)
-            columns["impact_state"][run].append(str(state.impact_state or ""))
-            for name in MEASURES:
-                columns[name][run].append(loads[j][name])
+        for run, j in zip(shown, (0, down_at, worst), strict=True):
+            run.append((found[j], loads[j]))
+    columns: dict[str, list[list[Any]]] = {
+        "motion": [[str(state.motion.kind) for state, _ in run] for run in shown],
+        "period": [[state.period or 0 for state, _ in run] for run in shown],
+        "impact_state": [[str(state.impact_state or "") for state, _ in run] for run in shown],
+        **{name: [[each[name] for _, each in run] for run in shown] for name in MEASURES},
+    }
     jumps = find_jumps(up, down) if locate_jumps else []
     return _dataset(drive, speeds, oscillators, columns, n_motions, worst_share, jumps)
 
@@ -187,24 +186,20 @@ def _dataset(
     }
     linear = [linear_response(osc) for osc in oscillators]
     unit_um = drive.half_backlash_m * 1e6
-    ratios = [osc.mesh_frequency for osc in oscillators]
-    for name, values in (
-        ("n_motions", n_motions),
-        ("worst_share", worst_share),
-        ("linear_factor", [each.load_factor for each in linear]),
-        ("linear_rms", [each.x_rms * unit_um for each in linear]),
-    ):
-        variables[name] = ("speed", np.array(values), attributes(name))
-    variables["mesh_frequency"] = ("speed", np.array(ratios), attributes("frequency_ratio"))
+    of_speed = {
+        "n_motions": n_motions,
+        "worst_share": worst_share,
+        "linear_factor": [each.load_factor for each in linear],
+        "linear_rms": [each.x_rms * unit_um for each in linear],
+    }
+    variables |= {name: ("speed", np.array(values), attributes(name)) for name, values in of_speed.items()}
+    ratios = np.array([osc.mesh_frequency for osc in oscillators])
+    variables["mesh_frequency"] = ("speed", ratios, attributes("frequency_ratio"))
     at = np.array([jump.mesh_frequency * drive.resonance_rpm for jump in jumps])
     variables["jump_speed"] = ("jump", at, attributes("jump_speed"))
-    for name, words in (
-        ("jump_run", [jump.run for jump in jumps]),
-        ("jump_kind", [jump.kind for jump in jumps]),
-        ("jump_from", [jump.before for jump in jumps]),
-        ("jump_to", [jump.after for jump in jumps]),
-    ):
-        variables[name] = ("jump", np.array(words, dtype=str), attributes(name))
+    for name, field in {"run": "run", "kind": "kind", "from": "before", "to": "after"}.items():
+        words = np.array([getattr(jump, field) for jump in jumps], dtype=str)
+        variables[f"jump_{name}"] = ("jump", words, attributes(f"jump_{name}"))
     return xr.Dataset(
         variables,
         {"run": list(RUNS), "speed": ("speed", speeds, attributes("speed"))},

@@ -92,8 +92,7 @@ def idle_oscillator(
     order = check_number("order", order, above=0.0)
     swing = np.radians(check_number("pinion_swing_deg", pinion_swing_deg, at_least=0.0))
     drag_torque_nm = check_number("drag_torque_nm", drag_torque_nm, at_least=0.0)
-    mass = idle_mass_kg(drive)
-    rate = np.sqrt(drive.mean_stiffness_n_per_um * 1e6 / mass)
+    mass, rate = _mass_and_rate(drive)
     return Oscillator(
         mean_force=drag_torque_nm / (drive.gear_base_radius_mm * 1e-3) / drive.unit_force_n,
         error_amplitude=swing * drive.pinion_base_radius_mm * 1e-3 / drive.half_backlash_m,
@@ -104,9 +103,10 @@ def idle_oscillator(
     )
 
 
-def idle_mass_kg(drive: GearDrive) -> float:
-    """I2 / r_b2^2: the gear's inertia along the line of action."""
-    return drive.gear_inertia_kg_m2 / (drive.gear_base_radius_mm * 1e-3) ** 2
+def _mass_and_rate(drive: GearDrive) -> tuple[float, float]:
+    """I2 / r_b2^2 in kg, the gear's inertia along the line of action, and its natural frequency in rad/s."""
+    mass = drive.gear_inertia_kg_m2 / (drive.gear_base_radius_mm * 1e-3) ** 2
+    return mass, float(np.sqrt(drive.mean_stiffness_n_per_um * 1e6 / mass))
 
 
 def idle_rattle(
@@ -142,8 +142,7 @@ def idle_rattle(
     drag_torque_nm = check_number("drag_torque_nm", drag_torque_nm, above=0.0)
     given = {"order": order, "pinion_swing_deg": pinion_swing_deg, "drag_torque_nm": drag_torque_nm}
     oscillators = [idle_oscillator(drive, float(speed), **given) for speed in speeds]
-    mass = idle_mass_kg(drive)
-    rate = np.sqrt(drive.mean_stiffness_n_per_um * 1e6 / mass)
+    mass, rate = _mass_and_rate(drive)
     columns = np.full((4, len(speeds)), np.nan)
     for i, state in enumerate(carried_runs([oscillators], None)[0][0]):
         if state.status in (Status.ESCAPED, Status.CAPPED, Status.NOT_RUN):

@@ -89,12 +89,8 @@ def sensitivity(
         loads = [[measure_motion(each, state) for state in run] for run in (up, down)]
         table = {name: np.array([[row[name] for row in run] for run in loads]) for name in loads[0][0]}
         strikes = (table["impact_rate"] > 0.0).any(axis=0)
-        rows.append(
-            [
-                *(table[name].max() for name in ("dynamic_factor", "mesh_force", "time_apart")),
-                float(np.gradient(speeds)[strikes].sum()),
-            ]
-        )
+        largest = [table[name].max() for name in ("dynamic_factor", "mesh_force", "time_apart")]
+        rows.append([*largest, float(np.gradient(speeds)[strikes].sum())])
     import xarray as xr  # here, so that importing gearpair stays quick
 
     shape = (len(chosen), 2)

@@ -22,7 +22,8 @@ def tip_relief(mesh: MeshStiffness, pinion_um: float, gear_um: float, length: fl
         Taken off normal to the flank at the tip, in micrometres, at least 0. The gear's tip is in contact at the
         start of the path, the pinion's at its end.
     length : float
-        From the tip to where the relief begins, along the line of action in base pitches; at most the contact ratio.
+        From the tip to where the relief begins, along the line of action in base pitches; at most the contact
+        ratio.
 
     Returns
     -------
