@@ -73,7 +73,7 @@ def chart(n: int) -> None:
     """The speed chart of a drawn pair: runs up and down, twelve starts a speed, jumps located."""
     pair = gp.SpurPair(pinion_teeth=28, gear_teeth=57, face_width_mm=25.0)
     drive = gp.GearDrive.from_pair(
-        pair, pinion_torque_nm=120.0, pinion_speed_rpm=1000.0, backlash_um=100.0, transmission_error_um=4.0,
+        pair, pinion_torque_nm=120.0, backlash_um=100.0, transmission_error_um=4.0,
         damping_ratio=0.05,
     )  # fmt: skip
     gp.design.speed_chart(drive, np.linspace(1500.0, 13000.0, n), n_starts=12)

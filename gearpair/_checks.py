@@ -37,6 +37,13 @@ def check_number(
     raise ValueError(f"{name} must be {allowed}, got {number if is_number else value!r}")
 
 
+def check_fields(of: Any, **limits: Mapping[str, float]) -> None:
+    """Let fields of a frozen dataclass be floats within limits, as `check_number` has them; a field of None stays."""
+    for name, limit in limits.items():
+        if getattr(of, name) is not None:
+            object.__setattr__(of, name, check_number(name, getattr(of, name), **limit))
+
+
 def check_count(name: str, value: Any, *, at_least: int = 1) -> int:
     """Return `value` as an int, or raise a ValueError."""
     if isinstance(value, bool) or not isinstance(value, Integral) or value < at_least:

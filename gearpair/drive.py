@@ -2,32 +2,29 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
-from typing import Literal
+from dataclasses import dataclass, field
+from numbers import Real
+from typing import Any
 
 import numpy as np
 
-from gearpair._checks import check_choice, check_count, check_number
+from gearpair._checks import check_count, check_fields, check_number
 from gearpair.oscillator import Harmonic, Oscillator, check_harmonics
 from gearpair.stiffness import StiffnessWave
 from gearpair.teeth import GearBlank, MeshStiffness, SpurPair, mesh_stiffness
 from gearpair.teeth.meshing import Coupling
 
-Backlash = Literal["normal", "circumferential", "thickness"]
-BACKLASHES = ("normal", "circumferential", "thickness")
-
-POSITIVE = (
-    "pinion_inertia_kg_m2",
-    "gear_inertia_kg_m2",
-    "pinion_base_radius_mm",
-    "gear_base_radius_mm",
-    "pinion_speed_rpm",
-    "backlash_um",
-    "mean_stiffness_n_per_um",
-)
-NOT_NEGATIVE = ("transmission_error_um", "damping_n_s_per_m")
-ANY = ("pinion_torque_nm", "error_phase_rad")
+LIMITS: dict[str, dict[str, float]] = {
+    **dict.fromkeys(("pinion_inertia_kg_m2", "gear_inertia_kg_m2"), {"above": 0.0}),
+    **dict.fromkeys(("pinion_base_radius_mm", "gear_base_radius_mm", "pinion_speed_rpm"), {"above": 0.0}),
+    **dict.fromkeys(("backlash_um", "mean_stiffness_n_per_um"), {"above": 0.0}),
+    **dict.fromkeys(("transmission_error_um", "damping_n_s_per_m"), {"at_least": 0.0}),
+    **dict.fromkeys(("pinion_torque_nm", "error_phase_rad"), {}),
+}
+SOLID = GearBlank()
+Error = float | Sequence[Harmonic | tuple[int, float, float]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,8 +47,8 @@ class GearDrive:
         r_b1 and r_b2.
     pinion_torque_nm : float
         T1, any sign.
-    pinion_speed_rpm : float
-        Revolutions per minute of the pinion.
+    pinion_speed_rpm : float, optional
+        Revolutions per minute of the pinion; a drive without has all but an oscillator, see `at_speed`.
     backlash_um : float
         The whole backlash along the line of action, 2 b_h.
     transmission_error_um : float
@@ -67,13 +64,8 @@ class GearDrive:
     error_harmonics : sequence of (order, amplitude, phase)
         What the transmission error has besides its first harmonic: orders from 2, amplitudes in micrometres, phases
         in radians, as `Harmonic`.
-    mesh : MeshStiffness, optional
-        Where the stiffness comes from; set by `from_pair`.
-
-    Raises
-    ------
-    ValueError
-        Naming the parameter, its value and the allowed range.
+    mesh, pinion_blank, gear_blank : MeshStiffness, GearBlank and GearBlank, optional
+        What stiffness and inertias come from; set by `from_pair`.
 
     Notes
     -----
@@ -82,12 +74,11 @@ class GearDrive:
     Examples
     --------
     >>> drive = GearDrive(pinion_teeth=34, pinion_inertia_kg_m2=2e-3, gear_inertia_kg_m2=2e-3,
-    ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0,
-    ...     pinion_speed_rpm=2500.0, backlash_um=100.0, transmission_error_um=10.0,
-    ...     mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
+    ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0, backlash_um=100.0,
+    ...     transmission_error_um=10.0, mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
     >>> round(drive.equivalent_mass_kg, 4)
     0.4358
-    >>> osc = drive.oscillator()
+    >>> osc = drive.at_speed(2500.0).oscillator()
     >>> round(osc.mean_force, 4), round(osc.error_amplitude, 4), round(osc.mesh_frequency, 4)
     (0.1432, 0.2, 0.3141)
     """
@@ -98,7 +89,7 @@ class GearDrive:
     pinion_base_radius_mm: float
     gear_base_radius_mm: float
     pinion_torque_nm: float
-    pinion_speed_rpm: float
+    pinion_speed_rpm: float | None = None
     backlash_um: float
     transmission_error_um: float
     mean_stiffness_n_per_um: float
@@ -107,14 +98,12 @@ class GearDrive:
     stiffness: StiffnessWave = field(default_factory=StiffnessWave.rectangular)
     error_harmonics: tuple[Harmonic, ...] = ()
     mesh: MeshStiffness | None = field(default=None, repr=False, compare=False)
+    pinion_blank: GearBlank | None = field(default=None, repr=False, compare=False)
+    gear_blank: GearBlank | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        checked: dict[str, float] = {"pinion_teeth": check_count("pinion_teeth", self.pinion_teeth)}
-        checked |= {name: check_number(name, getattr(self, name), above=0.0) for name in POSITIVE}
-        checked |= {name: check_number(name, getattr(self, name), at_least=0.0) for name in NOT_NEGATIVE}
-        checked |= {name: check_number(name, getattr(self, name)) for name in ANY}
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
+        object.__setattr__(self, "pinion_teeth", check_count("pinion_teeth", self.pinion_teeth))
+        check_fields(self, **LIMITS)
         if not isinstance(self.stiffness, StiffnessWave):
             raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
         object.__setattr__(self, "error_harmonics", check_harmonics("error_harmonics", self.error_harmonics))
@@ -125,15 +114,12 @@ class GearDrive:
         pair: SpurPair,
         *,
         pinion_torque_nm: float,
-        pinion_speed_rpm: float,
         backlash_um: float,
-        transmission_error_um: float | Sequence[Harmonic | tuple[int, float, float]],
+        transmission_error_um: Error,
         damping_ratio: float,
-        backlash: Backlash = "normal",
-        pinion_blank: GearBlank | None = None,
-        gear_blank: GearBlank | None = None,
-        pinion_added_inertia_kg_m2: float = 0.0,
-        gear_added_inertia_kg_m2: float = 0.0,
+        pinion_speed_rpm: float | None = None,
+        pinion_blank: GearBlank = SOLID,
+        gear_blank: GearBlank = SOLID,
         coupling: Coupling = "ring",
         n_levels: int = 16,
     ) -> GearDrive:
@@ -142,23 +128,15 @@ class GearDrive:
         Parameters
         ----------
         pair : SpurPair
-        pinion_torque_nm, pinion_speed_rpm : float
-            T1 and the pinion's speed.
-        backlash_um : float
-            The whole backlash, in micrometres, as `backlash` says.
+        pinion_torque_nm, backlash_um, pinion_speed_rpm : float
+            As in `GearDrive`; `SpurPair.normal_backlash_um` makes one of other statements of the backlash.
         transmission_error_um : float or sequence of (order, amplitude, phase)
             The amplitude e_a of a sinusoid, or all harmonics from order 1, as `gearpair.teeth.error_harmonics`
             gives them; micrometres and radians.
         damping_ratio : float
             zeta, from which ``c_h = 2 zeta sqrt(k_m m_e)``.
-        backlash : {"normal", "circumferential", "thickness"}
-            ``"normal"``: j_bn, along the line of action. ``"circumferential"``: j_wt, on the working pitch circles,
-            ``j_bn = j_wt cos(alpha_w)``. ``"thickness"``: what both gears' teeth are thinner than without backlash, on
-            the reference circles, together, ``j_bn = (A_s1 + A_s2) cos(alpha)``.
-        pinion_blank, gear_blank : GearBlank, optional
-            Rim, web, hub and density; solid steel discs with the pair's bore unless given.
-        pinion_added_inertia_kg_m2, gear_added_inertia_kg_m2 : float
-            Of what turns rigidly with each gear: shaft, coupling, motor.
+        pinion_blank, gear_blank : GearBlank
+            Rim, web, hub and density, and what turns with the gear; solid steel discs unless given.
         coupling : {"ring", "summed"}
             As in `mesh_stiffness`.
         n_levels : int
@@ -167,63 +145,93 @@ class GearDrive:
         Returns
         -------
         GearDrive
-            With `mesh` set.
-
-        Raises
-        ------
-        ValueError
-            Naming the parameter, its value and the allowed range.
-
-        Notes
-        -----
-        Backlash: ISO 21771:2007, its relations between normal, circumferential and thickness allowances for spur gears.
+            With `mesh` and the blanks set, so that `replace` can draw it anew.
 
         Examples
         --------
-        >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, pinion_speed_rpm=3000.0, backlash_um=80.0,
+        >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
         ...     transmission_error_um=5.0, damping_ratio=0.05)
-        >>> osc = drive.oscillator()
+        >>> osc = drive.at_speed(3000.0).oscillator()
         >>> round(osc.damping_ratio, 12), round(osc.error_amplitude, 12), round(osc.stiffness.mean, 12)
         (0.05, 0.125, 1.0)
         """
-        backlash_um = check_number("backlash_um", backlash_um, above=0.0)
-        check_choice("backlash", backlash, BACKLASHES)
-        damping_ratio = check_number("damping_ratio", damping_ratio, at_least=0.0)
-        cosine = {
-            "normal": 1.0,
-            "circumferential": np.cos(pair.working_pressure_angle),
-            "thickness": np.cos(pair.pressure_angle),
-        }[backlash]
-        given = transmission_error_um
-        harmonics = [(1, given, 0.0)] if isinstance(given, (int, float)) else list(given)
-        error = check_harmonics("transmission_error_um", harmonics, lowest=1)
-        first = next((each for each in error if each.order == 1), Harmonic(1, 0.0))
-        inertias = {}
-        for who, gear, blank, added in (
-            ("pinion", pair.pinion, pinion_blank, pinion_added_inertia_kg_m2),
-            ("gear", pair.gear, gear_blank, gear_added_inertia_kg_m2),
-        ):
-            name = f"{who}_added_inertia_kg_m2"
-            own = (blank or GearBlank()).inertia_kg_m2(gear, pair.face_width_mm)
-            inertias[f"{who}_inertia_kg_m2"] = own + check_number(name, added, at_least=0.0)
-        mesh = mesh_stiffness(pair, coupling=coupling)
         drive = cls(
-            pinion_teeth=pair.pinion_teeth,
-            **inertias,
-            pinion_base_radius_mm=pair.pinion.base_radius_mm,
-            gear_base_radius_mm=pair.gear.base_radius_mm,
+            **_drawn(pair, coupling, n_levels, {"pinion": pinion_blank, "gear": gear_blank}),
             pinion_torque_nm=pinion_torque_nm,
             pinion_speed_rpm=pinion_speed_rpm,
-            backlash_um=backlash_um * cosine,
-            transmission_error_um=first.amplitude,
-            error_phase_rad=first.phase,
-            error_harmonics=tuple(each for each in error if each.order > 1),
-            mean_stiffness_n_per_um=mesh.mean * 1e-6,
+            backlash_um=backlash_um,
+            transmission_error_um=0.0,
             damping_n_s_per_m=0.0,
-            stiffness=mesh.wave(n_levels),
-            mesh=mesh,
         )
-        return replace(drive, damping_n_s_per_m=damping_ratio * drive.critical_damping_n_s_per_m)
+        return drive.replace(transmission_error_um=transmission_error_um, damping_ratio=damping_ratio)
+
+    def replace(self, **changes: Any) -> GearDrive:
+        """A copy with some numbers changed, and with them what follows from them.
+
+        Parameters
+        ----------
+        **changes
+            Any field of the class, and `damping_ratio`. `transmission_error_um` as in `from_pair`: a number takes the
+            harmonics with it, a sequence replaces them. Of a drive that comes from `from_pair` also ``pair`` or any
+            field of its `SpurPair`, ``coupling`` and ``n_levels``: with these or a blank, radii, inertias and mesh
+            stiffness are made anew, and the damping ratio stays.
+
+        Returns
+        -------
+        GearDrive
+            Without `mesh` where the stiffness is no longer that of the pair.
+
+        Examples
+        --------
+        >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
+        ...     transmission_error_um=5.0, damping_ratio=0.05)
+        >>> other = drive.replace(addendum=1.05, pinion_torque_nm=50.0)
+        >>> round(other.mesh.contact_ratio, 3), round(other.damping_ratio, 12), other.mean_force_n < drive.mean_force_n
+        (1.754, 0.05, True)
+        """
+        for name in changes:
+            if name not in (*FIELDS, "damping_ratio"):
+                if name not in (*DRAWING, *PAIR):
+                    known = ", ".join((*FIELDS, "damping_ratio", *DRAWING[:3]))
+                    raise ValueError(f"unknown name {name!r}; what can be changed is {known}, and sizes of the pair")
+                if self.mesh is None:
+                    raise ValueError(f"{name} can be changed only where the drive comes from GearDrive.from_pair")
+        ratio = changes.pop("damping_ratio", None)
+        changes |= {f"{who}_blank": None for who in ("pinion", "gear") if f"{who}_inertia_kg_m2" in changes}
+        if self.mesh is not None and (drawing := {n: changes.pop(n) for n in (*DRAWING, *PAIR) if n in changes}):
+            pair, coupling = drawing.pop("pair", self.mesh.pair), drawing.pop("coupling", self.mesh.coupling)
+            n_levels = drawing.pop("n_levels", len(self.stiffness.levels))
+            blanks = {who: drawing.pop(f"{who}_blank", getattr(self, f"{who}_blank")) for who in ("pinion", "gear")}
+            changes = _drawn(pair.replace(**drawing), coupling, n_levels, blanks) | changes
+            ratio = self.damping_ratio if ratio is None else ratio
+        if "transmission_error_um" in changes:
+            changes = self._error(changes.pop("transmission_error_um")) | changes
+        if "mesh" not in changes and changes.get("stiffness", self.stiffness) != self.stiffness:
+            changes["mesh"] = None
+        changed = dataclasses.replace(self, **changes)
+        if ratio is None:
+            return changed
+        damping = check_number("damping_ratio", ratio, at_least=0.0) * changed.critical_damping_n_s_per_m
+        return dataclasses.replace(changed, damping_n_s_per_m=damping)
+
+    def _error(self, given: Error) -> dict[str, Any]:
+        """The fields of a transmission error from its amplitude, or from all its harmonics."""
+        if isinstance(given, Real):
+            size = check_number("transmission_error_um", given, at_least=0.0)
+            share = size / self.transmission_error_um if self.transmission_error_um else 1.0
+            scaled = [Harmonic(order, each * share, phase) for order, each, phase in self.error_harmonics]
+            return {"transmission_error_um": size, "error_harmonics": tuple(scaled)}
+        error = check_harmonics("transmission_error_um", given, lowest=1)
+        first = next((each for each in error if each.order == 1), Harmonic(1, 0.0))
+        return {
+            "transmission_error_um": first.amplitude,
+            "error_phase_rad": first.phase,
+            "error_harmonics": tuple(each for each in error if each.order > 1),
+        }
+
+    def at_speed(self, pinion_speed_rpm: float) -> GearDrive:
+        """The drive at another speed of the pinion."""
+        return dataclasses.replace(self, pinion_speed_rpm=pinion_speed_rpm)
 
     @property
     def equivalent_mass_kg(self) -> float:
@@ -253,9 +261,21 @@ class GearDrive:
         return self.backlash_um * 0.5e-6
 
     @property
+    def damping_ratio(self) -> float:
+        """zeta = c_h / (2 m_e omega_n)."""
+        return self.damping_n_s_per_m / self.critical_damping_n_s_per_m
+
+    @property
     def mesh_frequency_rad_s(self) -> float:
         """omega_h = z1 times the pinion's angular speed."""
+        if self.pinion_speed_rpm is None:
+            raise ValueError("this drive has no speed: give pinion_speed_rpm, or take drive.at_speed(rpm)")
         return self.pinion_teeth * self.pinion_speed_rpm * 2.0 * np.pi / 60.0
+
+    @property
+    def resonance_rpm(self) -> float:
+        """The pinion's speed at which the mesh frequency is the natural frequency, Omega = 1."""
+        return 60.0 * self.natural_frequency_rad_s / (2.0 * np.pi * self.pinion_teeth)
 
     @property
     def gear_torque_nm(self) -> float:
@@ -268,12 +288,12 @@ class GearDrive:
         return self.pinion_torque_nm / (self.pinion_base_radius_mm * 1e-3)
 
     def oscillator(self) -> Oscillator:
-        """The dimensionless oscillator of this drive (the article, item M5)."""
+        """The dimensionless oscillator of this drive at its speed (the article, item M5)."""
         return Oscillator(
             mean_force=self.mean_force_n / self.unit_force_n,
             error_amplitude=self.transmission_error_um * 1e-6 / self.half_backlash_m,
             error_phase=self.error_phase_rad,
-            damping_ratio=self.damping_n_s_per_m / self.critical_damping_n_s_per_m,
+            damping_ratio=self.damping_ratio,
             mesh_frequency=self.mesh_frequency_rad_s / self.natural_frequency_rad_s,
             stiffness=self.stiffness,
             harmonics=tuple(
@@ -286,24 +306,33 @@ class GearDrive:
         """The drive of the same teeth, inertias, radii, k_m and b_h whose oscillator is `osc`.
 
         Torque, speed, transmission error, damping, phase and stiffness wave follow from `osc`.
-
-        Raises
-        ------
-        ValueError
-            Where `osc` asks for what no drive has.
         """
-        speed = osc.mesh_frequency * self.natural_frequency_rad_s / self.pinion_teeth
-        return replace(
-            self,
+        unit_um = self.half_backlash_m * 1e6
+        return self.replace(
             pinion_torque_nm=osc.mean_force * self.unit_force_n * self.pinion_base_radius_mm * 1e-3,
-            pinion_speed_rpm=speed * 60.0 / (2.0 * np.pi),
-            transmission_error_um=osc.error_amplitude * self.half_backlash_m * 1e6,
-            error_phase_rad=osc.error_phase,
-            damping_n_s_per_m=osc.damping_ratio * self.critical_damping_n_s_per_m,
+            pinion_speed_rpm=osc.mesh_frequency * self.resonance_rpm,
+            transmission_error_um=[(order, size * unit_um, phase) for order, size, phase in osc.all_harmonics],
+            damping_ratio=osc.damping_ratio,
             stiffness=osc.stiffness,
-            error_harmonics=tuple(
-                Harmonic(order, amplitude * self.half_backlash_m * 1e6, phase)
-                for order, amplitude, phase in osc.harmonics
-            ),
-            mesh=self.mesh if osc.stiffness == self.stiffness else None,
         )
+
+
+def _drawn(pair: SpurPair, coupling: Coupling, n_levels: int, blanks: dict[str, GearBlank | None]) -> dict[str, Any]:
+    """The fields of a drive that follow from a drawing; an inertia where there is a blank."""
+    mesh = mesh_stiffness(pair, coupling=coupling)
+    drawn = {
+        "pinion_teeth": pair.pinion_teeth,
+        "mean_stiffness_n_per_um": mesh.mean * 1e-6,
+        "stiffness": mesh.wave(n_levels),
+        "mesh": mesh,
+    }
+    for who, gear in (("pinion", pair.pinion), ("gear", pair.gear)):
+        drawn |= {f"{who}_base_radius_mm": gear.base_radius_mm, f"{who}_blank": (blank := blanks[who])}
+        if blank is not None:
+            drawn[f"{who}_inertia_kg_m2"] = blank.inertia_kg_m2(gear, pair.face_width_mm)
+    return drawn
+
+
+FIELDS = tuple(each.name for each in dataclasses.fields(GearDrive))
+PAIR = tuple(each.name for each in dataclasses.fields(SpurPair))
+DRAWING = ("pair", "coupling", "n_levels", "pinion_blank", "gear_blank")

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_count, check_fields, check_number
 from gearpair._flow.cells import Cells, Parameters, build_cells
 from gearpair.stiffness import StiffnessWave
 
@@ -64,11 +64,6 @@ class Oscillator:
         What the transmission error has besides its first harmonic: orders n from 2 to 200, amplitudes
         F_n = e_n / b_h of at least 0, phases in radians, as `Harmonic`.
 
-    Raises
-    ------
-    ValueError
-        Naming the parameter, its value and the allowed range.
-
     Notes
     -----
     The article, items M5 and M6. Above a damping ratio of 100 the fastest time scale is so far
@@ -92,17 +87,14 @@ class Oscillator:
     harmonics: tuple[Harmonic, ...] = ()
 
     def __post_init__(self) -> None:
-        checked = {
-            "mean_force": check_number("mean_force", self.mean_force),
-            "error_amplitude": check_number("error_amplitude", self.error_amplitude, at_least=0.0),
-            "error_phase": check_number("error_phase", self.error_phase),
-            "damping_ratio": check_number(
-                "damping_ratio", self.damping_ratio, at_least=0.0, at_most=LARGEST_DAMPING_RATIO
-            ),
-            "mesh_frequency": check_number("mesh_frequency", self.mesh_frequency, above=0.0),
-        }
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
+        check_fields(
+            self,
+            mean_force={},
+            error_amplitude={"at_least": 0.0},
+            error_phase={},
+            damping_ratio={"at_least": 0.0, "at_most": LARGEST_DAMPING_RATIO},
+            mesh_frequency={"above": 0.0},
+        )
         if not isinstance(self.stiffness, StiffnessWave):
             raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
         object.__setattr__(self, "harmonics", check_harmonics("harmonics", self.harmonics))
@@ -119,6 +111,11 @@ class Oscillator:
     def period(self) -> float:
         """The mesh period T = 2 pi / Omega_h (dimensionless time)."""
         return 2.0 * np.pi / self.mesh_frequency
+
+    @property
+    def all_harmonics(self) -> tuple[Harmonic, ...]:
+        """All harmonics of the transmission error, the first among them."""
+        return (Harmonic(1, self.error_amplitude, self.error_phase), *self.harmonics)
 
     @property
     def parameters(self) -> tuple[str, ...]:
@@ -138,15 +135,6 @@ class Oscillator:
         **changes
             Any field of the class; also ``contact_ratio``, ``a`` and ``b`` where the stiffness is
             the article's rectangle, whose reading is kept.
-
-        Returns
-        -------
-        Oscillator
-
-        Raises
-        ------
-        ValueError
-            For an unknown name, a value out of range, or a wave that is not rectangular.
         """
         for name in changes:
             if name not in WHOLE:
@@ -171,18 +159,17 @@ class Oscillator:
 
     def force(self, tau: ArrayLike) -> NDArray[np.float64]:
         """The right-hand side ``F_m + F_ah Omega^2 sin(Omega tau + phi)``, with harmonics, at `tau` (any shape)."""
-        angle = self.mesh_frequency * np.asarray(tau, dtype=float) + self.error_phase
-        total = self.mean_force + self.error_amplitude * self.mesh_frequency**2 * np.sin(angle)
-        for order, amplitude, phase in self.harmonics:
-            rate = order * self.mesh_frequency
-            total = total + amplitude * rate**2 * np.sin(rate * np.asarray(tau, dtype=float) + phase)
+        angle = self.mesh_frequency * np.asarray(tau, dtype=float)
+        total = self.mean_force + np.zeros_like(angle)
+        for order, amplitude, phase in self.all_harmonics:
+            total = total + amplitude * (order * self.mesh_frequency) ** 2 * np.sin(order * angle + phase)
         return total
 
     def error(self, tau: ArrayLike) -> NDArray[np.float64]:
         """The transmission error over half the backlash, ``F_ah sin(Omega tau + phi)`` with harmonics, at `tau`."""
         angle = self.mesh_frequency * np.asarray(tau, dtype=float)
-        total = self.error_amplitude * np.sin(angle + self.error_phase)
-        for order, amplitude, phase in self.harmonics:
+        total = np.zeros_like(angle)
+        for order, amplitude, phase in self.all_harmonics:
             total = total + amplitude * np.sin(order * angle + phase)
         return total
 

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import fields
 from difflib import get_close_matches
 from functools import partial
+from math import prod
 from typing import Any
 
 from gearpair._checks import check_count, check_number
@@ -24,23 +25,23 @@ OSCILLATOR = tuple(field.name for field in fields(Oscillator) if field.name != "
 WAVE = ("contact_ratio", "a", "b", "reading")
 PAIR = tuple(field.name for field in fields(SpurPair))
 MESH = ("root", "foundation", "coupling")
-DRIVE = (
-    *("pinion_torque_nm", "backlash_um", "backlash", "transmission_error_um", "damping_ratio"),
-    *("pinion_added_inertia_kg_m2", "gear_added_inertia_kg_m2"),
-)
-ANY_SPEED = 1000.0  # rpm, of a drive that is checked for all else
-STANDS_FOR = {"lowest": "mesh_frequency", "highest": "mesh_frequency", "chaos_near": "mesh_frequency"}
+DRIVE = ("pinion_torque_nm", "transmission_error_um", "damping_ratio")
+ADDED = ("pinion_added_inertia_kg_m2", "gear_added_inertia_kg_m2")
+STANDS_FOR = {
+    **dict.fromkeys(("lowest", "highest", "chaos_near", "frequency_from", "frequency_to"), "mesh_frequency"),
+    "weak_damping": "damping_ratio",
+}
 STARTS = ("first_start", "second_start")
 SPEEDS = ("lowest_rpm", "highest_rpm")  # none: the chapter's choice
-FEWEST = {
-    "n_values": 2,
-    "n_fine": 2,
-    "n_x": 2,
-    "n_v": 2,
-    "n_speeds": 2,
-    "n_transient": 0,
-    "n_starts": 0,
-}  # of another n_... : 1
+RANGES = (("lowest", "highest"), ("lower", "upper"), ("frequency_from", "frequency_to"), SPEEDS)
+AXES = ("n_values", "n_fine", "n_x", "n_v", "n_speeds")  # from one end to another
+FEWEST = dict.fromkeys(AXES, 2) | {"n_transient": 0, "n_starts": 0}  # of another n_... : 1
+# What a chapter computes in one go: as many motions as these numbers make together, where it has them.
+PARTS = (
+    *(("n_values",), ("n_fine",), ("n_reached",), ("n_x", "n_v"), ("n_frequency", "n_other")),
+    *(("n_shares", "n_starts"), ("n_speeds", "n_starts")),
+)
+MOST_MOTIONS = 10**7  # of each about a kilobyte is kept
 INJECTED = "# Parameters"  # how papermill begins the cell that it puts in
 
 
@@ -70,21 +71,38 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
     ValueError: lowest must be below highest, got lowest = 1.7 and highest = 0.7
     """
     _check_names(values)
-    wave = StiffnessWave.rectangular(**_chosen(values, WAVE))
-    osc = Oscillator(**_chosen(values, OSCILLATOR), stiffness=wave)
+    osc = oscillator_of(values)
     if pair := _chosen(values, PAIR):
         mesh_stiffness(SpurPair(**pair), **_chosen(values, MESH))
     if "pinion_torque_nm" in values:
-        GearDrive.from_pair(SpurPair(**pair), pinion_speed_rpm=ANY_SPEED, **_chosen(values, DRIVE))
+        backlash = SpurPair(**pair).normal_backlash_um(**_chosen(values, ("backlash_um", "backlash")))
+        GearDrive.from_pair(SpurPair(**pair), backlash_um=backlash, **_chosen(values, DRIVE))
     for name, scalar in {**STANDS_FOR, **stands_for}.items():
         if name in values:
             _check_as(name, partial(osc.replace, **{scalar: values[name]}))
-    for low, high in (("lowest", "highest"), SPEEDS):
+    for low, high in RANGES:
         first, last = values.get(low), values.get(high)
         if first is not None and last is not None and not first < last:
             raise ValueError(f"{low} must be below {high}, got {low} = {first} and {high} = {last}")
     for name, value in values.items():
         _check_alone(name, value)
+    for part in PARTS:
+        counts = {name: values[name] for name in part if isinstance(values.get(name), int)}
+        if prod(counts.values()) > MOST_MOTIONS:
+            names, got = " x ".join(counts), " x ".join(map(str, counts.values()))
+            raise ValueError(f"{names} must be at most {MOST_MOTIONS}, the motions that memory holds, got {got}")
+
+
+def oscillator_of(values: Mapping[str, Any]) -> Oscillator:
+    """The oscillator of a chapter's parameters; what they do not name is the baseline's.
+
+    Examples
+    --------
+    >>> oscillator_of({"damping_ratio": 0.05, "reading": "swapped", "n_values": 101}).damping_ratio
+    0.05
+    """
+    wave = StiffnessWave.rectangular(**_chosen(values, WAVE))
+    return Oscillator(**_chosen(values, OSCILLATOR), stiffness=wave)
 
 
 def _chosen(values: Mapping[str, Any], names: tuple[str, ...]) -> dict[str, Any]:
@@ -110,9 +128,9 @@ def _check_alone(name: str, value: Any) -> None:
         _check_as(name, lambda: check_start(*value))
     elif name in ("start_x", "start_v"):
         check_number(name, value)
-    elif name in ("x_reach", "v_reach", "pinion_torque_nm") or (name in SPEEDS and value is not None):
+    elif name in ("x_reach", "v_reach", "pinion_torque_nm", "weak_damping") or (name in SPEEDS and value is not None):
         check_number(name, value, above=0.0)
-    elif name in ("narrowest", "base_pitch_um", "profile_um"):
+    elif name in ("narrowest", "base_pitch_um", "profile_um", *ADDED):
         check_number(name, value, at_least=0.0)
     elif name == "tolerances":
         if not value:
@@ -137,9 +155,13 @@ def unknown_name(name: str, known: Mapping[str, Any] | list[str], of: str) -> st
 
 
 def _check_names(values: Mapping[str, Any]) -> None:
-    """Refuse a parameter that papermill put in and the chapter's own cell does not declare; papermill only warns."""
+    """Refuse a parameter that papermill put in and the chapter's own cell does not declare; papermill only warns.
+
+    It warns in its own log, and leaves no trace in the kernel but the cell that it put in: an ordinary assignment, like
+    the chapter's own later ones. So the texts of the cells are read, of which IPython keeps a list, `In`.
+    """
     declared: set[str] = set()
-    for text in values.get("In", []):  # IPython's list of the cells run so far
+    for text in values.get("In", []):
         if text.startswith(INJECTED):
             for statement in ast.parse(text).body:
                 for target in statement.targets if isinstance(statement, ast.Assign) else []:

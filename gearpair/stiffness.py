@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair._checks import check_choice, check_count, check_number
 
 Reading = Literal["printed", "swapped"]
-READINGS = ("printed", "swapped")
+READINGS = get_args(Reading)
 
 
 @dataclass(frozen=True)
@@ -38,11 +38,6 @@ class StiffnessWave:
         Dimensionless stiffness from each edge to the next, positive.
     rectangle : Rectangle, optional
         Set by `rectangular`: the contact ratio, a and b that the two levels came from.
-
-    Raises
-    ------
-    ValueError
-        Naming the offending edge or level and what is allowed.
 
     Examples
     --------

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from html import escape, unescape
 from typing import Any
 
+from gearpair.quantities import LETTERS
+
 # Plain names of symbols, and how they are set in HTML.
-GREEK = dict(
-    zip(("Omega", "omega", "theta", "zeta", "phi", "psi", "eps", "epsilon", "tau", "pi"), "Ωωθζφψεετπ", strict=True)
-)
-SYMBOLS = {**GREEK, ">=": "≥", "<=": "≤", "-+": "∓"}
+SYMBOLS = {**LETTERS, ">=": "≥", "<=": "≤", "-+": "∓"}
 SYMBOL = re.compile("|".join(rf"(?<!\w){re.escape(escape(name))}(?!\w)" for name in SYMBOLS))
 INDEX = re.compile(r"(?<!\w)((?:Omega|omega|phi|[FTXbcekmr])(?=_)|theta(?=\d))_?(min|max|ah|b1|b2|[aehmn12])(?!\w)")
 PRIMES = re.compile(r"(?:(?<=\b[Xxe])|(?<=F<sub>m</sub>))(?:&#x27;)+(?!\w)")

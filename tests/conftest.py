@@ -1,6 +1,7 @@
 """The order of the tests, and a small book to break."""
 
 import os
+from collections import Counter
 
 import pytest
 
@@ -12,8 +13,13 @@ FIRST = ("test_layers.py", "test_style.py")
 
 
 def pytest_collection_modifyitems(items):
-    """The layers are checked before anything else, then the style."""
-    items.sort(key=lambda item: FIRST.index(item.path.name) if item.path.name in FIRST else len(FIRST))
+    """The layers are checked before anything else, then the style; then what has most of the slow tests.
+
+    A long file that began last would keep one process at work while the others wait.
+    """
+    slow = Counter(item.path for item in items if item.get_closest_marker("slow"))
+    first = {name: place for place, name in enumerate(FIRST)}
+    items.sort(key=lambda item: (first.get(item.path.name, len(first)), -slow[item.path]))
 
 
 @pytest.fixture

@@ -53,6 +53,7 @@ def test_slow_is_no_failure(monkeypatch):
     assert bench.main(["--quick"]) == 0
 
 
+@pytest.mark.slow
 def test_jobs_run_in_a_process_of_their_own():
     before, after = jobs.run_apart("grid", [3])
     assert (before.size, after.size) == (0, 3)

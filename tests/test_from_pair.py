@@ -64,10 +64,60 @@ def test_a_drive_has_the_geometry_of_its_pair():
     osc = DRIVE.oscillator()
     assert osc.damping_ratio == pytest.approx(0.06, rel=1e-12)
     assert osc.stiffness.mean == pytest.approx(1.0, rel=1e-12)
-    more = gp.GearDrive.from_pair(PAIR, **GIVEN, pinion_added_inertia_kg_m2=1e-3, coupling="summed", n_levels=10)
+    shaft = GearBlank(added_inertia_kg_m2=1e-3)
+    more = gp.GearDrive.from_pair(PAIR, **GIVEN, pinion_blank=shaft, coupling="summed", n_levels=10)
     assert more.pinion_inertia_kg_m2 == pytest.approx(DRIVE.pinion_inertia_kg_m2 + 1e-3, rel=1e-14)
     assert more.mean_stiffness_n_per_um > DRIVE.mean_stiffness_n_per_um and len(more.stiffness.levels) == 10
     assert more.oscillator().damping_ratio == pytest.approx(0.06, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"pinion_torque_nm": 30.0},
+        {"backlash_um": 60.0},
+        {"damping_ratio": 0.03},
+        {"transmission_error_um": [(1, 2.0, 0.5), (3, 0.4, -1.0)]},
+        {"pinion_speed_rpm": None},
+        {"coupling": "summed", "damping_ratio": 0.1},
+        {"n_levels": 24},
+        {"gear_blank": GearBlank(rim_mm=6.0, web_mm=8.0, added_inertia_kg_m2=1e-3)},
+    ],
+)
+def test_a_changed_drive_is_the_drive_of_what_was_changed(changes):
+    """`replace` and `from_pair` with the same numbers are one, to the bit."""
+    changed, made = DRIVE.replace(**changes), gp.GearDrive.from_pair(PAIR, **(GIVEN | changes))
+    assert changed == made and repr(changed) == repr(made)
+    assert changed.mesh.coupling == made.mesh.coupling and changed.gear_blank == made.gear_blank
+
+
+def test_a_changed_pair_brings_what_follows_from_it():
+    other = PAIR.replace(module_mm=2.5, gear_teeth=60)
+    made = gp.GearDrive.from_pair(other, **GIVEN)
+    for changed in (DRIVE.replace(module_mm=2.5, gear_teeth=60), DRIVE.replace(pair=other)):
+        assert changed.mesh.pair == other and changed.damping_ratio == pytest.approx(0.06, rel=1e-14)
+        assert changed.replace(damping_n_s_per_m=made.damping_n_s_per_m) == made
+    heavy = DRIVE.replace(gear_inertia_kg_m2=1.0)
+    assert heavy.gear_blank is None and heavy.replace(module_mm=2.5).gear_inertia_kg_m2 == 1.0
+    flat = DRIVE.replace(stiffness=gp.StiffnessWave((0.0,), (1.0,)))
+    assert flat.mesh is None and DRIVE.replace(stiffness=DRIVE.stiffness).mesh is DRIVE.mesh
+
+
+def test_an_error_that_is_scaled_keeps_its_form():
+    drive = DRIVE.replace(transmission_error_um=[(1, 4.0, 0.3), (2, 1.5, -1.0)])
+    half = drive.replace(transmission_error_um=2.0)
+    assert (half.transmission_error_um, half.error_phase_rad, half.error_harmonics) == (2.0, 0.3, ((2, 0.75, -1.0),))
+
+
+def test_a_speed_and_the_mesh_frequency_that_it_makes():
+    """Omega = 1 at the resonance speed, where z1 teeth a turn pass in the period of the free vibration."""
+    still = DRIVE.replace(pinion_speed_rpm=None)
+    hertz = still.natural_frequency_rad_s / (2.0 * math.pi)
+    assert still.resonance_rpm == pytest.approx(60.0 * hertz / 25, rel=1e-14)
+    for share in (0.3, 1.0, 1.7):
+        there = still.at_speed(share * still.resonance_rpm)
+        assert there.oscillator().mesh_frequency == pytest.approx(share, rel=1e-14)
+        assert still.with_oscillator(there.oscillator()).pinion_speed_rpm == pytest.approx(there.pinion_speed_rpm)
 
 
 def test_sixteen_levels_stand_for_the_stiffness():
@@ -90,8 +140,7 @@ def test_backlash_by_the_turn_it_allows():
         ("circumferential", 0.08 / working),  # an arc of the working pitch circle
         ("thickness", 0.08 / r.pitch_radius_mm),  # of the reference circle: all of it taken off the pinion's tooth
     ):
-        drive = gp.GearDrive.from_pair(PAIR, **GIVEN, backlash=kind)
-        assert drive.backlash_um * 1e-3 == pytest.approx(angle * r.base_radius_mm, rel=1e-12), kind
+        assert PAIR.normal_backlash_um(80.0, kind) * 1e-3 == pytest.approx(angle * r.base_radius_mm, rel=1e-12), kind
 
 
 def test_a_drive_there_and_back_with_harmonics():
@@ -108,7 +157,7 @@ def test_a_drive_there_and_back_with_harmonics():
         here, there = getattr(drive, field.name), getattr(again, field.name)
         if field.name == "error_harmonics":
             assert np.allclose(here, there, rtol=1e-12, atol=0.0)
-        elif field.name in ("stiffness", "mesh"):
+        elif field.name in ("stiffness", "mesh", "pinion_blank", "gear_blank"):
             assert here is there
         else:
             assert there == pytest.approx(here, rel=1e-12)
@@ -153,11 +202,24 @@ def test_harmonics_give_the_error_back():
     "call, sentence",
     [
         (lambda: gp.GearDrive.from_pair(PAIR, **(GIVEN | {"backlash_um": 0.0})), "backlash_um must be .* above 0"),
-        (lambda: gp.GearDrive.from_pair(PAIR, **GIVEN, backlash="radial"), "backlash must be one of 'normal'"),
+        (lambda: PAIR.normal_backlash_um(80.0, "radial"), "backlash must be one of 'normal'"),
         (lambda: gp.GearDrive.from_pair(PAIR, **(GIVEN | {"damping_ratio": -0.1})), "damping_ratio must be"),
+        (lambda: PAIR.normal_backlash_um(-1.0), "backlash_um must be a finite number above 0, got -1.0"),
         (
-            lambda: gp.GearDrive.from_pair(PAIR, **GIVEN, gear_added_inertia_kg_m2=-1.0),
-            "gear_added_inertia_kg_m2 must be a finite number at least 0, got -1.0",
+            lambda: GearBlank(added_inertia_kg_m2=-1.0),
+            "added_inertia_kg_m2 must be a finite number at least 0, got -1.0",
+        ),
+        (lambda: DRIVE.replace(colour=1.0), "unknown name 'colour'; what can be changed is pinion_teeth, "),
+        (
+            lambda: DRIVE.replace(mesh=None).replace(addendum=1.1),
+            "addendum can be changed only where",
+        ),
+        (lambda: DRIVE.replace(addendum=3.0), "tooth pointed"),
+        (lambda: DRIVE.replace(damping_ratio=-1.0), "damping_ratio must be .* at least 0, got -1.0"),
+        (lambda: DRIVE.at_speed(-1.0), "pinion_speed_rpm must be .* above 0, got -1.0"),
+        (
+            lambda: DRIVE.replace(pinion_speed_rpm=None).oscillator(),
+            "this drive has no speed: give",
         ),
         (
             lambda: gp.GearDrive.from_pair(PAIR, **(GIVEN | {"transmission_error_um": [(0, 1.0, 0.0)]})),

@@ -12,7 +12,8 @@ from tests.support import ROOT
 
 LIBRARY = sorted((ROOT / "gearpair").rglob("*.py"))
 LONGEST_FILE = 400
-SHARED = {"_flow", "_checks", "_cores"}  # below every room: the kernels, and what all rooms check and run with
+# Below every room: the kernels, and what all rooms check, compare and run with.
+SHARED = {"_flow", "_checks", "_cores", "_equality"}
 
 
 def test_imports_keep_the_contracts():
@@ -53,7 +54,7 @@ def test_nothing_private_is_imported_from_another_room(path):
                 assert not private, f"{', '.join(private)} of {node.module} is private"
 
 
-@pytest.mark.parametrize("folder", ["gearpair", "tests", "benchmarks"])
+@pytest.mark.parametrize("folder", ["gearpair", "tests", "tools", "benchmarks"])
 def test_a_module_fits_in_the_head(folder):
     lengths = {str(path): len(path.read_text(encoding="utf-8").splitlines()) for path in (ROOT / folder).rglob("*.py")}
     assert {path: n for path, n in lengths.items() if n > LONGEST_FILE} == {}

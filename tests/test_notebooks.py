@@ -3,6 +3,7 @@
 import ast
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -15,6 +16,7 @@ from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
 from tests.support import ROOT
 from tests.support.notebooks import MEAN, write_notebook
+from tools.accept import accept_outputs
 
 BOOK = Book(ROOT)
 NOTEBOOKS = sorted(
@@ -145,6 +147,7 @@ def test_numbers_glued_into_the_prose_are_formatted_texts(path):
 
 
 @pytest.mark.parametrize("name", CHAPTERS)
+@pytest.mark.slow
 def test_a_chapter_runs_with_other_parameters(name, tmp_path):
     chapter = BOOK.chapter(name)
     values = chapter.parse(list(CHANGED[name].items()))
@@ -179,6 +182,7 @@ def test_a_chapter_checks_its_parameters_before_a_kernel_starts(name):
         ),
     ],
 )
+@pytest.mark.slow
 def test_papermill_itself_stops_at_what_is_out_of_range(tmp_path, words, sentence):
     (tmp_path / "mine.yml").write_text("n_values: 1\n")
     command = [sys.executable, "-m", "papermill", str(BOOK.chapter("damping_sweep").path), "out.ipynb", *words]
@@ -190,10 +194,9 @@ def test_papermill_itself_stops_at_what_is_out_of_range(tmp_path, words, sentenc
     assert "check_parameters" in ran[-1].source  # nothing after it was run
 
 
+@pytest.mark.slow
 def test_nbval_sees_a_broken_library(small_book, tmp_path):
     """The stored outputs are compared for real: one changed constant in the library, and nbval is red."""
-    from gearpair.study.book import accept_outputs
-
     notebook = write_notebook(small_book / "notebooks" / "small.ipynb", MEAN)
     accept_outputs(Book(small_book), progress=False)
     assert nbval(notebook, ROOT).returncode == 0
@@ -204,13 +207,29 @@ def test_nbval_sees_a_broken_library(small_book, tmp_path):
         source = path.read_text(encoding="utf-8")
         copy.write_text(source.replace("(1.0 + a, 1.0 - b)", "(1.0 + a, 1.001 - b)"), encoding="utf-8")
     result = nbval(notebook, tmp_path / "broken")
-    assert result.returncode == 1
+    assert result.returncode == 1, result.stdout
     assert "0.9464" in result.stdout and "0.9467" in result.stdout
 
 
+@pytest.mark.parametrize(
+    ("cell", "sentence"),
+    [
+        ("import warnings; warnings.warn('careful')", "Cell wrote to stderr: a warning, or a progress bar"),
+        ("1 / 0", "chapter small failed in code cell 2 (cell 3 of the notebook): ZeroDivisionError: division by zero"),
+    ],
+)
+@pytest.mark.slow
+def test_a_warning_and_an_error_of_a_chapter_are_seen(small_book, cell, sentence):
+    notebook = write_notebook(small_book / "notebooks" / "small.ipynb", cell)
+    result = nbval(notebook, ROOT)
+    assert result.returncode == 1
+    assert sentence in result.stdout
+
+
 def nbval(notebook, library):
-    """Run nbval on `notebook` as `make test` does, with the package found in the directory `library`."""
-    command = [sys.executable, "-m", "pytest", "--nbval", "--nbval-current-env", "-p", "no:cacheprovider"]
+    """Have `notebook` compared as `make test` does, with the package found in the directory `library`."""
+    shutil.copy(ROOT / "notebooks" / "conftest.py", notebook.parent)
+    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"]
     command += ["-c", "/dev/null", "--rootdir", str(notebook.parent), str(notebook)]
     environment = {**os.environ, "PYTHONPATH": str(library)}
     return subprocess.run(command, env=environment, cwd=notebook.parent, capture_output=True, text=True)

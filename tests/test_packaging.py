@@ -11,6 +11,8 @@ import pytest
 
 from tests.support import ROOT
 
+pytestmark = pytest.mark.slow
+
 TAKEN = (
     "gearpair",
     "notebooks",
@@ -54,7 +56,7 @@ def test_the_wheel_holds_the_library_its_data_and_the_chapters(installed):
     book = {path.relative_to(ROOT) for path in (ROOT / "book").rglob("*.*") if path.is_file()}
     assert {path.as_posix() for path in book if not generated & {*path.parts}} <= inside
     assert {"_toc.yml", "_config.yml", "CITATION.cff", "LICENSE"} <= inside
-    assert not [name for name in names if name.startswith("tests")]
+    assert not [name for name in names if name.startswith(("tests", "tools"))]
 
 
 def test_the_installed_command_finds_its_chapters_from_anywhere(installed, tmp_path):

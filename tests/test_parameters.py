@@ -44,6 +44,22 @@ DRIVE = {"pinion_torque_nm": 120.0, "backlash_um": 100.0, "transmission_error_um
         ({"narrowest": -0.1}, "narrowest must be a finite number at least 0"),
         ({"tolerances": []}, "tolerances must be at least one number"),
         ({"tolerances": [1e-3, 0.0]}, "tolerances must be a finite number above 0 and below 1, got 0.0"),
+        (
+            {"weak_damping": -0.1},
+            "weak_damping: damping_ratio must be a finite number at least 0 and at most 100, got -0.1",
+        ),
+        ({"weak_damping": 0.0}, "weak_damping must be a finite number above 0, got 0.0"),
+        ({"frequency_to": -1.0}, "frequency_to: mesh_frequency must be a finite number above 0, got -1.0"),
+        (
+            {"frequency_from": 1.7, "frequency_to": 0.4},
+            "frequency_from must be below frequency_to, got frequency_from = 1.7 and frequency_to = 0.4",
+        ),
+        ({"lower": 0.9, "upper": 0.7}, "lower must be below upper, got lower = 0.9 and upper = 0.7"),
+        (
+            {"n_starts": 10**9, "n_shares": 53},
+            "n_shares x n_starts must be at most 10000000, the motions that memory holds, got 53 x 1000000000",
+        ),
+        ({"n_values": 10**9}, "n_values must be at most 10000000, the motions that memory holds, got 1000000000"),
         ({"phase_step": 7}, "phase_step must be a divisor of 180 degrees, got 7"),
     ],
 )

@@ -104,9 +104,9 @@ case "$*" in *install*) for name in $BRINGS; do cp "$0" "${0%/*}/$name"; done ;;
 @pytest.mark.parametrize(
     ("brings", "named", "code", "asked"),
     [
-        ("chromium java", "", 0, "chromium default-jre-headless"),
-        ("java", "/opt/chrome", 0, "default-jre-headless"),
-        ("java", "", 1, "chromium default-jre-headless"),  # where Chromium is no package: Ubuntu
+        ("chromium java npm", "", 0, "chromium default-jre-headless npm"),
+        ("java npm", "/opt/chrome", 0, "default-jre-headless npm"),
+        ("java npm", "", 1, "chromium default-jre-headless npm"),  # where Chromium is no package: Ubuntu
     ],
 )
 def test_the_browser_is_installed_where_it_is_missing(tmp_path, brings, named, code, asked):

@@ -12,10 +12,10 @@ import io
 import re
 from collections.abc import Callable
 from functools import partial
-from html.parser import HTMLParser
 from pathlib import Path
 
 import nbformat
+from bs4 import BeautifulSoup
 from docutils import nodes
 from PIL import Image
 from sphinx.application import Sphinx
@@ -88,39 +88,9 @@ class Thumbnail(Executed):
             picture.convert("RGB").resize((WIDTH, height), Image.Resampling.LANCZOS).save(path)
 
 
-class Rows(HTMLParser):
+def rows_of(html: str) -> list[list[str]]:
     """The cells of an HTML table as HTML, row by row."""
-
-    def __init__(self, html: str) -> None:
-        super().__init__(convert_charrefs=False)
-        self.rows: list[list[str]] = []
-        self._open = False
-        self.feed(html)
-
-    def handle_starttag(self, tag: str, attributes: object) -> None:
-        if tag == "tr":
-            self.rows.append([])
-        elif tag in {"td", "th"}:
-            self.rows[-1].append("")
-            self._open = True
-        else:
-            self.handle_data(f"<{tag}>")
-
-    def handle_endtag(self, tag: str) -> None:
-        if tag in {"td", "th"}:
-            self._open = False
-        else:
-            self.handle_data(f"</{tag}>")
-
-    def handle_data(self, data: str) -> None:
-        if self._open:
-            self.rows[-1][-1] += data
-
-    def handle_entityref(self, name: str) -> None:
-        self.handle_data(f"&{name};")
-
-    def handle_charref(self, name: str) -> None:
-        self.handle_data(f"&#{name};")
+    return [[cell.decode_contents() for cell in row(["td", "th"])] for row in BeautifulSoup(html, "html.parser")("tr")]
 
 
 class Claims(Executed):
@@ -133,7 +103,7 @@ class Claims(Executed):
         chapter, word, by = VERDICTS
         for cell in self.cells(chapter):
             for output in cell.outputs:
-                rows = Rows(output.get("data", {}).get("text/html", "")).rows
+                rows = rows_of(output.get("data", {}).get("text/html", ""))
                 if rows and word in rows[0]:
                     columns = rows[0].index(word), rows[0].index(by)
                     return [self._table([row for row in rows[1:] if row[0][0] in self.arguments], *columns)]
@@ -168,7 +138,7 @@ def link_verdicts(app: Sphinx, doctree: nodes.document, docname: str) -> None:
         return
     address = partial(app.builder.get_relative_uri, docname)
     for node in doctree.findall(nodes.raw):
-        rows = Rows(node.astext()).rows
+        rows = rows_of(node.astext())
         if rows and word in rows[0] and rows[0][-1] == by:
             linked = ROW.sub(lambda row: row[1] + evidence(row[2], row[3], address) + row[4], node.astext())
             node.children = [nodes.Text(linked)]

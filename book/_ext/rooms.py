@@ -17,7 +17,7 @@ from docutils.statemachine import StringList
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-MODULES = ("oscillator", "stiffness", "drive", "table", "parameters")
+MODULES = ("oscillator", "stiffness", "drive", "quantities", "table", "parameters")
 FOLDERS = (
     "teeth",
     "motion",

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._kernel import Array, Integers, allocating_kernel, kernel
+from ._kernel import Array, Integers, allocating_kernel, inlined_kernel, kernel
 from .closed_form import (
     AMPLITUDE,
     DEGREE,
@@ -100,7 +100,7 @@ def count_cells(p: Parameters, level: int) -> int:
 @allocating_kernel
 def build_cells(p: Parameters) -> Cells:
     """Cut the mesh period of oscillator `p` into cells."""
-    cells = empty_cells(p)
+    cells, ends = empty_cells(p), np.empty((2, 5, 2))
     j, b = 0, 0
     for i in range(p.levels.size):
         n = count_cells(p, i)
@@ -110,10 +110,11 @@ def build_cells(p: Parameters) -> Cells:
         fill_basis(0.0, p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 0])
         fill_basis(p.levels[i], p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 1])
         for contact in range(2):
+            fill_ends(cells.bases[i, contact], width, ends[contact])
             for k in range(5):
                 cells.fourths[i, contact, k] = fourth_derivative_bound(cells.bases[i, contact, k], 1.0)
         for m in range(n):
-            fill_cell(p, cells, j, i, p.edges[i] + m * span, width)
+            fill_cell(p, cells, j, i, p.edges[i] + m * span, width, ends)
             j += 1
             if (m + 1) % per_block == 0:
                 fill_block(cells, b, j - per_block, j)
@@ -158,9 +159,9 @@ def empty_cells(p: Parameters) -> Cells:
     )
 
 
-@allocating_kernel
-def fill_cell(p: Parameters, cells: Cells, j: int, level: int, start: float, width: float) -> None:
-    """Cell `j`, from `start` (in mesh periods) on, of a stiffness level whose bases are filled in."""
+@inlined_kernel
+def fill_cell(p: Parameters, cells: Cells, j: int, level: int, start: float, width: float, ends: Array) -> None:
+    """Cell `j`, from `start` (in mesh periods) on, of a stiffness level: `ends` (2, 5, 2) are its `fill_ends`."""
     theta = cells.phase_per_period * start + p.error_phase
     cells.clock[j, WIDTH] = width
     cells.clock[j, START] = start
@@ -173,7 +174,7 @@ def fill_cell(p: Parameters, cells: Cells, j: int, level: int, start: float, wid
             fill_forced(kappa, p.damping_ratio, p.mesh_frequency, width, start, p.harmonics, row)
             cells.forced_fourths[j, contact] = fourth_derivative_bound(row, 1.0)
     for region in range(3):
-        fill_map(cells, j, region)
+        fill_map(cells, j, region, ends[abs(region - 1)])
 
 
 @kernel
@@ -202,22 +203,27 @@ def contact_growth(p: Parameters) -> float:
     return (half + np.sqrt(max(half * half - 1.0, 0.0))) * np.exp(-zeta * period)
 
 
-@allocating_kernel
-def fill_map(cells: Cells, j: int, region: int) -> None:
-    """The affine map of cell `j` in one region, and its spread."""
-    basis = cells.bases[cells.level[j], abs(region - 1)]
+@kernel
+def fill_ends(basis: Array, width: float, ends: Array) -> None:
+    """Value and rate of each response of `basis` at the end of a cell, into `ends` (5, 2)."""
+    for k in range(5):
+        value, slope = 0.0, 0.0
+        for n in range(DEGREE, -1, -1):
+            value += basis[k, n]
+            slope += n * basis[k, n] / width
+        ends[k, 0], ends[k, 1] = value, slope
+
+
+@kernel
+def fill_map(cells: Cells, j: int, region: int, ends: Array) -> None:
+    """The affine map of cell `j` in one region, and its spread; `ends` (5, 2) as of `fill_ends` there."""
     shift = region - 1.0
     width, sine, cosine = cells.clock[j, WIDTH], cells.clock[j, SINE], cells.clock[j, COSINE]
     row = cells.maps[j, region]
-    ends = np.zeros((2, 5))
-    for k in range(5):
-        for n in range(DEGREE, -1, -1):
-            ends[0, k] += basis[k, n]
-            ends[1, k] += n * basis[k, n] / width
-    row[XX], row[XV] = ends[0, 0], ends[0, 1]
-    row[VX], row[VV] = ends[1, 0], ends[1, 1]
-    row[X0] = ends[0, 2] * cells.force + ends[0, 3] * sine + ends[0, 4] * cosine + shift * (1.0 - ends[0, 0])
-    row[V0] = ends[1, 2] * cells.force + ends[1, 3] * sine + ends[1, 4] * cosine - shift * ends[1, 0]
+    row[XX], row[VX] = ends[0, 0], ends[0, 1]
+    row[XV], row[VV] = ends[1, 0], ends[1, 1]
+    row[X0] = ends[2, 0] * cells.force + ends[3, 0] * sine + ends[4, 0] * cosine + shift * (1.0 - ends[0, 0])
+    row[V0] = ends[2, 1] * cells.force + ends[3, 1] * sine + ends[4, 1] * cosine - shift * ends[0, 1]
     fourths = cells.fourths[cells.level[j], abs(region - 1)]
     row[SX], row[SV] = fourths[0] / 384.0, fourths[1] / 384.0
     row[S0] = (fourths[2] * abs(cells.force) + fourths[3] * abs(sine) + fourths[4] * abs(cosine)) / 384.0

@@ -17,16 +17,31 @@ def map_at(p: Parameters, x: float, v: float, period: int, m: Array) -> tuple[in
 
 
 @allocating_kernel
-def maps_at(
-    p: Parameters, others: tuple[Parameters, ...], x: float, v: float, period: int, m: Array, ends: Array
-) -> tuple[int, float, float]:
-    """`map_at`, with the ends (n, 2) of the map of `others`; the status is the worst of all."""
-    series = np.empty(TERMS)
+def equations_at(
+    p: Parameters,
+    beside: tuple[Parameters, ...],
+    x: float,
+    v: float,
+    period: int,
+    steps: Array,
+    residual: Array,
+    jacobian: Array,
+) -> int:
+    """The equations map(x, v) = (x, v) of an orbit: the worst status of the walks.
+
+    Fills `residual` (2,) and `jacobian` (2, 2 + n): the exact derivative by X and X', and the central difference by
+    each of n parameters, of which `beside` has the oscillators a step of `steps` (n,) above and below.
+    """
+    series, m = np.empty(TERMS), np.empty((2, 2))
     worst, x1, v1 = derivative(build_cells(p), x, v, period, m, series)
-    for i in range(len(others)):
-        status, ends[i, 0], ends[i, 1] = walk(build_cells(others[i]), x, v, period, series)
-        worst = max(worst, status)
-    return worst, x1, v1
+    residual[0], residual[1] = x1 - x, v1 - v
+    jacobian[0, 0], jacobian[0, 1], jacobian[1, 0], jacobian[1, 1] = m[0, 0] - 1.0, m[0, 1], m[1, 0], m[1, 1] - 1.0
+    for k in range(len(steps)):
+        above, x1, v1 = walk(build_cells(beside[2 * k]), x, v, period, series)
+        below, x0, v0 = walk(build_cells(beside[2 * k + 1]), x, v, period, series)
+        jacobian[0, 2 + k], jacobian[1, 2 + k] = (x1 - x0) / (2.0 * steps[k]), (v1 - v0) / (2.0 * steps[k])
+        worst = max(worst, max(above, below))
+    return worst
 
 
 @allocating_kernel

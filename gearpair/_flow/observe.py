@@ -8,7 +8,7 @@ from .closed_form import TERMS
 from .measures import Measures, begin_measures, finish_measures
 from .reach import begin_reach
 from .tangent import set_identity
-from .walk import OK, Details, walk
+from .walk import OK, Details, inlined_walk, walk
 
 
 @kernel
@@ -34,7 +34,7 @@ def stretch(
     """`walk`, turning the first column of `q` (2, 2) with the flow: (status, x, v, log of its growth)."""
     status, total = OK, 0.0
     for _ in range(n_periods):
-        status, x, v = walk(cells, x, v, 1, series, q, reach)
+        status, x, v = inlined_walk(cells, x, v, 1, series, q, reach)
         if status != OK:
             break
         length = np.hypot(q[0, 0], q[1, 0])

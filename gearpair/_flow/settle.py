@@ -28,7 +28,7 @@ from .closed_form import TERMS
 from .newton import NEWTON_STEPS, SAME_POINT, derivative, distance, minimal_period, newton
 from .observe import exponents, measure
 from .reach import COAST, DRIVE, HIGHEST, LOWEST, begin_reach
-from .walk import ESCAPED, OK, walk
+from .walk import ESCAPED, OK, inlined_walk, walk
 
 PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED, NOT_RUN, EXHAUSTED = 0, 1, 2, 3, 4, 5, 6
 
@@ -198,7 +198,7 @@ def follow(cells: Cells, x: float, v: float, n_transient: int, max_period: int, 
     status, returned = OK, False
     held = inside(rows, n_known, x, v)
     while held < 0 and done < n_transient and not returned:
-        status, x, v = walk(cells, x, v, 1, work.series, None, work.reach)
+        status, x, v = inlined_walk(cells, x, v, 1, work.series, None, work.reach)
         if status != OK:
             break
         done += 1

@@ -39,14 +39,6 @@ class Details(NamedTuple):
     growth: Growth | None = None
 
 
-class Seen(NamedTuple):
-    """All that is gathered."""
-
-    m: Array | None
-    reach: Array | None
-    details: Details | None
-
-
 class Place(NamedTuple):
     """Where the walk is, and how many events this mesh period has had."""
 
@@ -54,18 +46,6 @@ class Place(NamedTuple):
     v: float
     region: int
     events: int
-
-
-@inlined_kernel
-def by_cells(seen_reach: Array | None, details: Details | None, n_cells: int) -> bool:
-    """Whether the cells of a block that was not followed as a whole may be followed one by one."""
-    return details is None and (seen_reach is not None or n_cells > 1)
-
-
-@inlined_kernel
-def by_blocks(seen_reach: Array | None, details: Details | None) -> bool:
-    """Whether a block may be followed as a whole."""
-    return details is None and seen_reach is None
 
 
 @inlined_kernel
@@ -96,19 +76,33 @@ def walk(
     Stops early, with the state reached, when the status is not OK. `series` (TERMS,) is scratch; `m` (2, 2) is
     multiplied by the monodromy matrix of the span, `reach` (4,) widened, `details` gathered.
     """
-    seen = Seen(m, reach, details)
+    return inlined_walk(cells, x, v, n_periods, series, m, reach, details)
+
+
+@inlined_kernel
+def inlined_walk(
+    cells: Cells,
+    x: float,
+    v: float,
+    n_periods: int,
+    series: Array,
+    m: Array | None = None,
+    reach: Array | None = None,
+    details: Details | None = None,
+) -> tuple[int, float, float]:
+    """`walk` for kernels that ask for one period at a time: a call, two dozen arrays, costs a tenth of a period."""
     region = first_region(cells, x, v)
     for period in range(n_periods):
         events = 0
         for b in range(cells.block_width.size):
-            if by_blocks(reach, details):
+            if reach is None and details is None:
                 row = cells.block_maps[b, region + 1]
                 certain, x1, v1, _low, _high = follow_row(row, cells.block_width[b], x, v, region)
                 if certain:
                     apply_map(m, row)
                     x, v = x1, v1
                     continue
-            status, place = walk_block(cells, period, b, Place(x, v, region, events), series, seen)
+            status, place = walk_block(cells, period, b, Place(x, v, region, events), series, m, reach, details)
             x, v, region, events = place
             if status != OK:
                 return status, x, v
@@ -118,16 +112,25 @@ def walk(
 
 
 @inlined_kernel
-def walk_block(cells: Cells, period: int, b: int, place: Place, series: Array, seen: Seen) -> tuple[int, Place]:
+def walk_block(
+    cells: Cells,
+    period: int,
+    b: int,
+    place: Place,
+    series: Array,
+    m: Array | None,
+    reach: Array | None,
+    details: Details | None,
+) -> tuple[int, Place]:
     """A block that is not followed as a whole: its cells one by one, by their maps or event by event."""
     x, v, region, events = place
     first, last = cells.blocks[b], cells.blocks[b + 1]
     for j in range(first, last):
-        if by_cells(seen.reach, seen.details, last - first):
+        if details is None and (reach is not None or last - first > 1):
             row = cells.maps[j, region + 1]
             certain, x1, v1, low, high = follow_row(row, cells.clock[j, WIDTH], x, v, region)
-            if certain and holds(seen.reach, low, high):
-                apply_map(seen.m, row)
+            if certain and holds(reach, low, high):
+                apply_map(m, row)
                 x, v = x1, v1
                 continue
         t = 0.0
@@ -136,9 +139,9 @@ def walk_block(cells: Cells, period: int, b: int, place: Place, series: Array, s
             if outcome == UNDECIDED:
                 return EVENT_UNDECIDED, Place(x, v, region, events)
             segment = Segment(period, j, t, duration, region, outcome != INSIDE, x, v, fourth, series)
-            apply_segment(seen.m, cells, segment)
-            widen(seen.reach, cells, segment)
-            see(seen.details, cells, segment)
+            apply_segment(m, cells, segment)
+            widen(reach, cells, segment)
+            see(details, cells, segment)
             if outcome == INSIDE:
                 break
             t += duration

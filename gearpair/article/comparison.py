@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from gearpair.article import published
 from gearpair.article.published import Boundary, Range
-from gearpair.ensembles.datasets import symbol
 from gearpair.ensembles.planes import attractor_motions
 from gearpair.ensembles.ranges import MotionRange
 from gearpair.motion.names import Motion
+from gearpair.quantities import symbol
 from gearpair.table import Table
 
 if TYPE_CHECKING:
@@ -24,9 +24,9 @@ def compare_ranges(stated: Iterable[Range], found: Sequence[MotionRange], digits
     Parameters
     ----------
     stated : iterable of Range
-        As `gearpair.published.ranges` gives them.
+        Of `gearpair.published.ranges`.
     found : sequence of MotionRange
-        As `found_ranges` gives them.
+        Of `found_ranges`.
     digits : int
         Decimals shown.
 
@@ -65,18 +65,12 @@ def compare_attractors(
 
     Parameters
     ----------
-    stated : iterable of Range
-        As `gearpair.published.ranges` gives them.
+    stated, digits
+        As in `compare_ranges`.
     planes : mapping of float to xarray.Dataset
         Of `gearpair.basins`, by the value of the parameter.
     least_share : float
         Attractors that fewer of the starts reach are left out.
-    digits : int
-        Decimals shown.
-
-    Returns
-    -------
-    Table
 
     Examples
     --------
@@ -113,20 +107,13 @@ def compare_boundaries(
     Parameters
     ----------
     boundaries : iterable of Boundary
-        As `gearpair.published.boundaries` gives them.
     stated : sequence of Range
         The published ranges that they separate.
-    found : sequence of MotionRange
-        As `found_ranges` gives them.
+    found, digits
+        As in `compare_ranges`.
     gap : float
         Two ranges follow on each other when no more than this lies between them; a periodic motion with nothing that
         follows on it changes into something complex.
-    digits : int
-        Decimals shown.
-
-    Returns
-    -------
-    Table
 
     Examples
     --------
@@ -154,9 +141,8 @@ def compare_boundaries(
 
 def _changes(found: Sequence[MotionRange], gap: float) -> list[tuple[float, tuple[Motion, Motion]]]:
     """Where one kind of motion gives way to another, the parameter rising; the ends of all found are no changes."""
-    if not found:
-        return []
-    first, last = min(run.lower for run in found), max(run.upper for run in found)
+    first = min((run.lower for run in found), default=0.0)
+    last = max((run.upper for run in found), default=0.0)
     changes = []
     for run in found:
         after = [other for other in found if abs(other.lower - run.upper) <= gap and other.upper > run.upper]

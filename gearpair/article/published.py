@@ -16,21 +16,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from gearpair._checks import check_choice
 from gearpair.motion.names import Motion, periodic
 
-Section = Literal["model", "stiffness", "numerics", "frequency", "damping", "impacts", "conclusions"]
 Kind = Literal["equation", "value", "range", "method", "criterion", "claim"]
-SECTIONS: dict[str, Section] = {
-    "M": "model",
-    "K": "stiffness",
-    "N": "numerics",
-    "F": "frequency",
-    "D": "damping",
-    "I": "impacts",
+SECTIONS = {  # by the letter of an item
+    "M": "model", "K": "stiffness", "N": "numerics", "F": "frequency", "D": "damping", "I": "impacts",
     "C": "conclusions",
-}
-
-
+}  # fmt: skip
 # The article's two words for what is not one of its periods: neither says more than that.
 COMPLEX = Motion("complex")  # on the frequency axis: chaotic bands and windows of periods other than 1, 2 and 4 (F8)
 CHAOTIC = Motion("chaotic")  # on the damping axis: no period
@@ -38,23 +31,7 @@ CHAOTIC = Motion("chaotic")  # on the damping axis: no period
 
 @dataclass(frozen=True)
 class Baseline:
-    """The article's baseline (item N3; K4 for the contact ratio); all dimensionless, the phase in radians.
-
-    Attributes
-    ----------
-    mean_force : float
-        F_m'.
-    error_amplitude : float
-        F_ah = e_a / b_h.
-    error_phase : float
-        phi_h.
-    contact_ratio : float
-        epsilon.
-    a, b : float
-        Stiffness added in double contact and missing in single contact, relative to k_m.
-    damping_ratio : float
-        zeta.
-    """
+    """The article's baseline (item N3; K4 for the contact ratio), as `Oscillator` and its rectangle name it."""
 
     mean_force: float
     error_amplitude: float
@@ -67,17 +44,7 @@ class Baseline:
 
 @dataclass(frozen=True)
 class StiffnessRow:
-    """One row of the article's stiffness table (item K3); its values are given as approximate.
-
-    Attributes
-    ----------
-    teeth_pinion, teeth_wheel : int
-        z1 and z2.
-    contact_ratio : float
-        epsilon.
-    a, b : float
-        Relative to k_m (dimensionless).
-    """
+    """One row of the article's stiffness table (item K3): z1, z2, and a rectangle whose values are approximate."""
 
     teeth_pinion: int
     teeth_wheel: int
@@ -88,16 +55,10 @@ class StiffnessRow:
 
 @dataclass(frozen=True)
 class Range:
-    """A range of one parameter in which the article reports one kind of motion.
+    """A range of one of the oscillator's parameters in which the article reports one kind of motion.
 
     Attributes
     ----------
-    item : str
-        Its number, such as ``"F1"``.
-    parameter : str
-        The name of the parameter in `Oscillator`.
-    lower, upper : float
-        Its ends (dimensionless).
     motion : Motion
         A period, `COMPLEX` or `CHAOTIC`.
     spectrum : str or None
@@ -117,16 +78,12 @@ class Range:
 
 @dataclass(frozen=True)
 class Boundary:
-    """A parameter value where the article reports that one kind of motion gives way to another.
+    """A value of one of the oscillator's parameters where the article reports that one motion gives way to another.
 
     Attributes
     ----------
     item : str
         The item that names the boundary; the item of the range above it where none does.
-    parameter : str
-        The name of the parameter in `Oscillator`.
-    value : float
-        Dimensionless.
     event : str or None
         What the article says happens there, the parameter rising; None where it says nothing.
     """
@@ -139,13 +96,7 @@ class Boundary:
 
 @dataclass(frozen=True)
 class ImpactCriterion:
-    """A condition on the extremes of X over a cycle, in units of half the backlash.
-
-    Attributes
-    ----------
-    item, state, condition : str
-        The item's number, the state's name, and the article's inequality.
-    """
+    """A condition on the extremes of X over a cycle, as the article's inequality."""
 
     item: str
     state: str
@@ -154,24 +105,14 @@ class ImpactCriterion:
 
 @dataclass(frozen=True)
 class Statement:
-    """One numbered item of the article.
-
-    Attributes
-    ----------
-    item : str
-        Its number, from ``"M1"`` to ``"C5"``.
-    kind : {"equation", "value", "range", "method", "criterion", "claim"}
-        What sort of statement it is.
-    text : str
-        What the item states, in short words.
-    """
+    """One numbered item of the article, ``"M1"`` to ``"C5"``: what sort of statement it is, and what in short words."""
 
     item: str
     kind: Kind
     text: str
 
     @property
-    def section(self) -> Section:
+    def section(self) -> str:
         """The part of the article that the item stands in."""
         return SECTIONS[self.item[0]]
 
@@ -219,80 +160,58 @@ IMPACT_CRITERIA = (
     ImpactCriterion("I2", "single-sided impact (rattle)", "-1 <= X_min < 1 and X_max >= 1"),
     ImpactCriterion("I3", "double-sided impact (clatter)", "X_min < -1 and X_max > 1"),
 )
-STATEMENTS = (
-    Statement("M1", "equation", "Two gears turn as rigid bodies in pure torsion, on rigid shafts and bearings."),
-    Statement("M2", "equation", "x = r_b1 theta1 - r_b2 theta2 - e(t), with the error e = e_a sin(omega_h t + psi)."),
-    Statement("M3", "equation", "Symmetric backlash 2 b_h: f is zero inside it and x -+ b_h on the two flanks."),
-    Statement(
-        "M4", "equation", "m_e x'' + c_h x' + k_h(t) f(x) = F_m - m_e e'', with m_e = 1/(r_b1^2/I1 + r_b2^2/I2)."
-    ),
-    Statement("M5", "equation", "Scaling by b_h and omega_n = sqrt(k_m/m_e), with k_m the average mesh stiffness."),
-    Statement("M6", "equation", "X'' + 2 zeta X' + k f(X) = F_m' + F_ah Omega_h^2 sin(Omega_h tau + phi_h)."),
-    Statement(
-        "K1", "method", "Single-pair stiffness by the potential-energy method; the mesh's is the sum over pairs."
-    ),
-    Statement("K2", "equation", "k = 1 + a on the first (eps - 1) of the mesh period, 1 - b on the rest."),
-    Statement("K3", "value", "Contact ratio, a and b for 34 teeth against 34, 44 and 54."),
-    Statement("K4", "value", "The baseline takes eps = 1.68 with a and b of 34 teeth against 34."),
-    Statement("K5", "claim", "The rectangle excites more faithfully than a sinusoid and predicts more credibly."),
-    Statement("N1", "method", "Variable-step Runge-Kutta 4-5 handles stiffness and discontinuities accurately."),
-    Statement(
-        "N2",
-        "method",
-        "On the section few points tell a period, a structured set quasi-periodic motion, a dense set chaos.",
-    ),
-    Statement("N3", "value", "The baseline: F_m' 0.1, F_ah 0.2, phi_h 0, eps 1.68, a 0.116, b 0.414, zeta 0.02."),
-    Statement("F1", "range", "Period 1 from 0.700 to 0.799: one closed orbit, lines at n Omega_h."),
-    Statement("F2", "value", "Period doubling at 0.799."),
-    Statement("F3", "range", "Period 2 from 0.799 to 0.865: lines at n Omega_h / 2."),
-    Statement("F4", "value", "Period doubling at 0.865."),
-    Statement("F5", "range", "Period 4 from 0.865 to 1.028: lines at n Omega_h / 4."),
-    Statement("F6", "value", "Period halving at 1.028."),
-    Statement("F7", "range", "Period 2 from 1.028 to 1.191."),
-    Statement("F8", "range", "Complex from 1.191 to 1.459: windows of period 3 and 6, chaotic bands, sensitivity."),
-    Statement("F9", "value", "Chaos at about 1.219: fractal-like section, broadband spectrum."),
-    Statement("F10", "range", "Period 2 from 1.459 to 1.555."),
-    Statement("F11", "range", "Period 1 from 1.555 to 1.700."),
-    Statement("F12", "claim", "A classic period-doubling route into chaos as Omega_h rises, a reverse one out of it."),
-    Statement("F13", "claim", "Chaos lies near primary resonances."),
-    Statement("F14", "claim", "A stable period-3 orbit satisfies 3 Omega_h T_h = 2 pi m for some integer m."),
-    Statement("D1", "range", "Chaotic for zeta from 0 to 0.00275."),
-    Statement("D2", "value", "A crisis to period 3 at 0.00275."),
-    Statement("D3", "range", "Period 3 from 0.00275 to 0.0165: lines at n Omega_h / 3."),
-    Statement("D4", "value", "Straight to period 1 at 0.0165, by a saddle-node or similar."),
-    Statement("D5", "range", "Period 1 from 0.0165 to 0.025, zeta = 0.02 included."),
-    Statement("D6", "claim", "zeta above 0.0165 suffices to suppress complex motion."),
-    Statement("I1", "criterion", "No impact: X_min >= 1 or X_max <= -1."),
-    Statement("I2", "criterion", "Single-sided impact (rattle): -1 <= X_min < 1 and X_max >= 1."),
-    Statement("I3", "criterion", "Double-sided impact (clatter): X_min < -1 and X_max > 1."),
-    Statement(
-        "I4", "claim", "At Omega_h 0.7, zeta 0.02 the attractor is unique, yet starts lead to several impact states."
-    ),
-    Statement("I5", "claim", "The same gearbox can differ in noise and wear by its start-up history."),
-    Statement("C1", "claim", "Frequency is the main bifurcation parameter, with speed ranges to avoid."),
-    Statement("C2", "claim", "Modest damping collapses chaotic and high-period motion to period 1."),
-    Statement("C3", "claim", "Several impact states occur, by the start."),
-    Statement("C4", "claim", "The rectangle gives more credible predictions."),
-    Statement("C5", "claim", "Analyse the whole speed range and many starts; maximise damping; mind torque reversal."),
-)
+# The item, its kind, what it states.
+ITEMS = """
+M1  equation  Two gears turn as rigid bodies in pure torsion, on rigid shafts and bearings.
+M2  equation  x = r_b1 theta1 - r_b2 theta2 - e(t), with the error e = e_a sin(omega_h t + psi).
+M3  equation  Symmetric backlash 2 b_h: f is zero inside it and x -+ b_h on the two flanks.
+M4  equation  m_e x'' + c_h x' + k_h(t) f(x) = F_m - m_e e'', with m_e = 1/(r_b1^2/I1 + r_b2^2/I2).
+M5  equation  Scaling by b_h and omega_n = sqrt(k_m/m_e), with k_m the average mesh stiffness.
+M6  equation  X'' + 2 zeta X' + k f(X) = F_m' + F_ah Omega_h^2 sin(Omega_h tau + phi_h).
+K1  method    Single-pair stiffness by the potential-energy method; the mesh's is the sum over pairs.
+K2  equation  k = 1 + a on the first (eps - 1) of the mesh period, 1 - b on the rest.
+K3  value     Contact ratio, a and b for 34 teeth against 34, 44 and 54.
+K4  value     The baseline takes eps = 1.68 with a and b of 34 teeth against 34.
+K5  claim     The rectangle excites more faithfully than a sinusoid and predicts more credibly.
+N1  method    Variable-step Runge-Kutta 4-5 handles stiffness and discontinuities accurately.
+N2  method    On the section few points tell a period, a structured set quasi-periodic motion, a dense set chaos.
+N3  value     The baseline: F_m' 0.1, F_ah 0.2, phi_h 0, eps 1.68, a 0.116, b 0.414, zeta 0.02.
+F1  range     Period 1 from 0.700 to 0.799: one closed orbit, lines at n Omega_h.
+F2  value     Period doubling at 0.799.
+F3  range     Period 2 from 0.799 to 0.865: lines at n Omega_h / 2.
+F4  value     Period doubling at 0.865.
+F5  range     Period 4 from 0.865 to 1.028: lines at n Omega_h / 4.
+F6  value     Period halving at 1.028.
+F7  range     Period 2 from 1.028 to 1.191.
+F8  range     Complex from 1.191 to 1.459: windows of period 3 and 6, chaotic bands, sensitivity.
+F9  value     Chaos at about 1.219: fractal-like section, broadband spectrum.
+F10 range     Period 2 from 1.459 to 1.555.
+F11 range     Period 1 from 1.555 to 1.700.
+F12 claim     A classic period-doubling route into chaos as Omega_h rises, a reverse one out of it.
+F13 claim     Chaos lies near primary resonances.
+F14 claim     A stable period-3 orbit satisfies 3 Omega_h T_h = 2 pi m for some integer m.
+D1  range     Chaotic for zeta from 0 to 0.00275.
+D2  value     A crisis to period 3 at 0.00275.
+D3  range     Period 3 from 0.00275 to 0.0165: lines at n Omega_h / 3.
+D4  value     Straight to period 1 at 0.0165, by a saddle-node or similar.
+D5  range     Period 1 from 0.0165 to 0.025, zeta = 0.02 included.
+D6  claim     zeta above 0.0165 suffices to suppress complex motion.
+I1  criterion No impact: X_min >= 1 or X_max <= -1.
+I2  criterion Single-sided impact (rattle): -1 <= X_min < 1 and X_max >= 1.
+I3  criterion Double-sided impact (clatter): X_min < -1 and X_max > 1.
+I4  claim     At Omega_h 0.7, zeta 0.02 the attractor is unique, yet starts lead to several impact states.
+I5  claim     The same gearbox can differ in noise and wear by its start-up history.
+C1  claim     Frequency is the main bifurcation parameter, with speed ranges to avoid.
+C2  claim     Modest damping collapses chaotic and high-period motion to period 1.
+C3  claim     Several impact states occur, by the start.
+C4  claim     The rectangle gives more credible predictions.
+C5  claim     Analyse the whole speed range and many starts; maximise damping; mind torque reversal.
+"""
+STATEMENTS = tuple(Statement(*line.split(maxsplit=2)) for line in ITEMS.strip().splitlines())  # type: ignore[arg-type]
 
 
 def statement(item: str) -> Statement:
-    """The numbered item of the article.
-
-    Parameters
-    ----------
-    item : str
-        From ``"M1"`` to ``"C5"``.
-
-    Returns
-    -------
-    Statement
-
-    Raises
-    ------
-    ValueError
-        For an item that the article does not have.
+    """The numbered item of the article, from ``"M1"`` to ``"C5"``.
 
     Examples
     --------
@@ -306,47 +225,19 @@ def statement(item: str) -> Statement:
 
 
 def ranges(parameter: str) -> tuple[Range, ...]:
-    """The published ranges of one parameter, in ascending order.
-
-    Parameters
-    ----------
-    parameter : {"mesh_frequency", "damping_ratio"}
-
-    Returns
-    -------
-    tuple of Range
-
-    Raises
-    ------
-    ValueError
-        For a parameter that the article does not vary.
+    """The published ranges of one parameter, ``"mesh_frequency"`` or ``"damping_ratio"``, in ascending order.
 
     Examples
     --------
     >>> [str(r.motion) for r in ranges("damping_ratio")]
     ['chaotic', 'period 3', 'period 1']
     """
-    found = tuple(r for r in FREQUENCY_RANGES + DAMPING_RANGES if r.parameter == parameter)
-    if not found:
-        raise ValueError(f"parameter must be 'mesh_frequency' or 'damping_ratio', got {parameter!r}")
-    return found
+    check_choice("parameter", parameter, ("mesh_frequency", "damping_ratio"))
+    return tuple(r for r in FREQUENCY_RANGES + DAMPING_RANGES if r.parameter == parameter)
 
 
 def boundaries(parameter: str) -> tuple[Boundary, ...]:
-    """The published boundaries between the ranges of one parameter, in ascending order.
-
-    Parameters
-    ----------
-    parameter : {"mesh_frequency", "damping_ratio"}
-
-    Returns
-    -------
-    tuple of Boundary
-
-    Raises
-    ------
-    ValueError
-        For a parameter that the article does not vary.
+    """The published boundaries between the `ranges` of one parameter, in ascending order.
 
     Examples
     --------

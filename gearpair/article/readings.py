@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args, get_type_hints
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -55,25 +55,15 @@ class Hypothesis:
     shape: Literal["rectangle", "first harmonic"] = "rectangle"
 
     def __post_init__(self) -> None:
-        check_choice("stiff_for", self.stiff_for, ("eps - 1", "2 - eps"))
-        check_choice("first", self.first, ("stiff", "soft"))
         check_number("phase", self.phase)
-        check_choice("force", self.force, ("Omega^2", "constant"))
-        check_choice("mean", self.mean, ("as printed", "one"))
-        check_choice("damping", self.damping, ("2 zeta", "zeta", "2 zeta sqrt(mean)"))
-        check_choice("shape", self.shape, ("rectangle", "first harmonic"))
+        for name, choices in CHOICES.items():
+            check_choice(name, getattr(self, name), choices)
 
     def __str__(self) -> str:
         forcing = FORCINGS.get(self.phase % 360.0, f"sin(. + {self.phase:g} deg)")
-        words = (
-            f"stiff for {self.stiff_for}",
-            f"{self.first} first",
-            forcing,
-            self.force,
-            f"mean {self.mean}",
-            self.damping,
-        )
-        return ", ".join(words if self.shape == "rectangle" else (*words, self.shape))
+        words = (f"stiff for {self.stiff_for}", f"{self.first} first", forcing, self.force)
+        shape = () if self.shape == "rectangle" else (self.shape,)
+        return ", ".join((*words, f"mean {self.mean}", self.damping, *shape))
 
     @property
     def wave(self) -> StiffnessWave:
@@ -111,5 +101,7 @@ class Hypothesis:
         return [self.oscillator(**{parameter: float(value)}) for value in np.asarray(values)]
 
 
+# What the fields that are words may be.
+CHOICES = {name: get_args(hint) for name, hint in get_type_hints(Hypothesis).items() if get_args(hint)}
 PRINTED = Hypothesis()
 SWAPPED = Hypothesis(stiff_for="2 - eps")

@@ -46,10 +46,6 @@ def sweep_waves(osc: Oscillator, waves: Mapping[str, StiffnessWave], frequencies
     frequencies : array_like of float, shape (n,)
         Mesh frequencies, rising.
 
-    Returns
-    -------
-    dict of str to SweptWave
-
     Examples
     --------
     >>> waves = {"rectangle": StiffnessWave.rectangular(), "flat": StiffnessWave((0.0,), (1.0,))}

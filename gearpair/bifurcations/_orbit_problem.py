@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._flow.cells import Parameters
-from gearpair._flow.cycle import maps_at
+from gearpair._flow.cycle import equations_at
 from gearpair._flow.walk import OK
 from gearpair.bifurcations._arclength import Vector
 from gearpair.bifurcations._cycle import Cycle, describe_cycle
@@ -46,19 +46,20 @@ class OrbitProblem:
     def equations(self, u: Vector) -> tuple[Vector, NDArray[np.float64]] | None:
         """Residual and Jacobian; None where the motion cannot be followed."""
         steps = DIFFERENCE * np.maximum(1.0, np.abs(u[2:]))
-        asides = np.zeros((len(steps), len(u)))
-        asides[:, 2:] = np.diag(steps)
         try:
             here = self.parameters(u)
-            beside = tuple(self.parameters(u + side) for aside in asides for side in (aside, -aside))
+            beside = tuple(self._beside(u, k, step) for k, size in enumerate(steps, 2) for step in (size, -size))
         except ValueError:  # a wave parameter out of range
             return None
-        monodromy, ends = np.empty((2, 2)), np.empty((len(beside), 2))
-        status, x, v = maps_at(here, beside, u[0], u[1], self.period, monodromy, ends)
-        if status != OK:
-            return None
-        slopes = (ends[::2] - ends[1::2]) / (2.0 * steps[:, np.newaxis])
-        return np.array([x - u[0], v - u[1]]), np.hstack([monodromy - np.eye(2), slopes.T])
+        residual, jacobian = np.empty(2), np.empty((2, len(u)))
+        status = equations_at(here, beside, u[0], u[1], self.period, steps, residual, jacobian)
+        return (residual, jacobian) if status == OK else None
+
+    def _beside(self, u: Vector, k: int, step: float) -> Parameters:
+        """The kernels' parameters with unknown `k` a step away."""
+        aside = u.copy()
+        aside[k] += step
+        return self.parameters(aside)
 
     def cycle(self, u: Vector) -> Cycle:
         """The orbit at a solution `u`."""

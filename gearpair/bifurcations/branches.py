@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._checks import check_count, check_number
+from gearpair._equality import equal_by_value
 from gearpair.bifurcations._arclength import Step, Vector
 from gearpair.bifurcations._cycle import Cycle
 from gearpair.bifurcations._orbit_problem import OrbitProblem
@@ -23,6 +24,7 @@ FIRST_STEP, SMALLEST_STEP, LARGEST_STEP = 2e-3, 1e-9, 2e-2  # in scaled arc leng
 LARGEST_X = 20.0  # where branches that run to infinity, by contact's parametric resonance, are left; see largest_x
 
 
+@equal_by_value
 @dataclass(frozen=True, repr=False)
 class Branch:
     """A branch of periodic orbits in the order walked; arrays have one row an orbit, the first again where it closes.

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._checks import check_count, check_number
+from gearpair._equality import equal_by_value
 from gearpair.bifurcations._arclength import Step, Vector
 from gearpair.bifurcations._orbit_problem import DIFFERENCE, OrbitProblem
 from gearpair.bifurcations._walk import End, walk_both_ways
@@ -18,6 +19,7 @@ VANISHED = 1e-6  # residual of a bifurcation's equation from which on the extrem
 FIRST_STEP, SMALLEST_STEP, LARGEST_STEP = 1e-3, 1e-8, 2e-2
 
 
+@equal_by_value
 @dataclass(frozen=True, repr=False)
 class BifurcationCurve:
     """A curve of folds, flips or grazings in two parameters; arrays have one row a point, the first again if closed.

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gearpair._checks import check_count
 from gearpair._cores import on_all_cores
+from gearpair._equality import equal_by_value
 from gearpair._flow.newton import newton_starts
 from gearpair.bifurcations._cycle import describe_cycle
 from gearpair.motion.impacts import ImpactState, impact_state
@@ -38,6 +39,7 @@ class NewtonStatus(StrEnum):
         }[self]
 
 
+@equal_by_value
 @dataclass(frozen=True, repr=False)
 class PeriodicOrbit:
     """A periodic orbit, stable or not; or the best state reached, where Newton's method did not converge.
@@ -146,7 +148,8 @@ def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> Periodic
     ends, periods, residuals = _newton(osc, np.array([[x, v]]), period)
     if periods[0] == 0:
         return PeriodicOrbit(osc, NewtonStatus.DIVERGED, period, ends, float(residuals[0]))
-    return orbit_at(osc, *ends[0].tolist(), int(periods[0]))
+    x, v = ends[0].tolist()
+    return orbit_at(osc, x, v, int(periods[0]))
 
 
 def _newton(
@@ -223,7 +226,7 @@ def find_orbits(
     orbits: list[PeriodicOrbit] = []
     for period in range(1, max_period + 1):
         ends, periods, _residuals = _newton(osc, starts, period)
-        for end, own in zip(ends.tolist(), periods.tolist(), strict=True):
-            if own and not any(lies_on(end, orbit.points) for orbit in orbits):
-                orbits.append(orbit_at(osc, *end, own))
+        for (x_end, v_end), own in zip(ends.tolist(), periods.tolist(), strict=True):
+            if own and not any(lies_on((x_end, v_end), orbit.points) for orbit in orbits):
+                orbits.append(orbit_at(osc, x_end, v_end, own))
     return sorted(orbits, key=lambda orbit: (orbit.period, orbit.points[0, 0]))

@@ -10,9 +10,9 @@ import numpy as np
 
 from gearpair.bifurcations.branches import Branch
 from gearpair.bifurcations.locating import Bifurcation
-from gearpair.ensembles.datasets import symbol
 from gearpair.ensembles.ranges import MotionRange, joined_ranges
 from gearpair.motion.names import IMPACT_NAMES, Motion, periodic
+from gearpair.quantities import symbol
 from gearpair.table import Table
 
 SNAP = 2e-4  # relative distance within which the end of a stable range is the bifurcation found there

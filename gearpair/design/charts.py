@@ -16,6 +16,7 @@ from gearpair.drive import GearDrive
 from gearpair.motion.settling import CHART, settle_batch, settle_both_ways
 from gearpair.motion.steady import SteadyState, describe
 from gearpair.oscillator import Oscillator
+from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -37,7 +38,7 @@ def speed_chart(
     Parameters
     ----------
     drive : GearDrive
-        Its own speed does not count.
+        With or without a speed of its own.
     speeds_rpm : array_like of float, shape (n,)
         Of the pinion, rising, at least two.
     n_starts : int
@@ -61,11 +62,6 @@ def speed_chart(
         ``mesh_frequency`` (dimensionless). Over ``jump``: ``jump_speed`` (rpm), ``jump_run``, ``jump_kind``,
         ``jump_from`` and ``jump_to``, see `find_jumps`.
 
-    Raises
-    ------
-    ValueError
-        For speeds that do not rise, or an argument out of range.
-
     Notes
     -----
     The dynamic transmission error is ``r_b1 theta1 - r_b2 theta2 = x + e``. The mesh force is the elastic one,
@@ -75,7 +71,7 @@ def speed_chart(
     Examples
     --------
     >>> from gearpair.teeth import SpurPair
-    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, pinion_speed_rpm=3000.0, backlash_um=80.0,
+    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
     ...     transmission_error_um=5.0, damping_ratio=0.08)
     >>> chart = speed_chart(drive, [2000.0, 4000.0], n_starts=4)
     >>> chart.motion.sel(run="up").values.tolist()
@@ -129,9 +125,7 @@ def check_speeds(speeds_rpm: ArrayLike) -> NDArray[np.float64]:
 
 def oscillators_at(drive: GearDrive, speeds: NDArray[np.float64]) -> list[Oscillator]:
     """The drive's oscillator at each speed of the pinion."""
-    osc = drive.oscillator()
-    unit = drive.pinion_teeth * 2.0 * np.pi / 60.0 / drive.natural_frequency_rad_s
-    return [osc.replace(mesh_frequency=float(speed * unit)) for speed in speeds]
+    return [drive.at_speed(speed).oscillator() for speed in speeds.tolist()]
 
 
 def carried_runs(
@@ -188,38 +182,31 @@ def _dataset(
 ) -> xr.Dataset:
     import xarray as xr  # here, so that importing gearpair stays quick
 
-    names = {
-        "motion": ("motion", "1"),
-        "period": ("period in mesh periods, 0 unless periodic", "1"),
-        "impact_state": ("impact state", "1"),
-    } | {name: (long_name, unit) for name, (long_name, unit) in MEASURES.items()}
     variables: dict[str, Any] = {
-        name: (("run", "speed"), np.array(columns[name]), {"long_name": long_name, "units": unit})
-        for name, (long_name, unit) in names.items()
+        name: (("run", "speed"), np.array(column), attributes(name)) for name, column in columns.items()
     }
     linear = [linear_response(osc) for osc in oscillators]
     unit_um = drive.half_backlash_m * 1e6
     ratios = [osc.mesh_frequency for osc in oscillators]
-    unit = 60.0 * drive.natural_frequency_rad_s / (2.0 * np.pi * drive.pinion_teeth)
-    for name, values, long_name, units in (
-        ("n_motions", n_motions, "motions found", "1"),
-        ("worst_share", worst_share, "share of the starts that leads to the worst motion", "1"),
-        ("linear_factor", [each.load_factor for each in linear], "dynamic factor of the linear response", "1"),
-        ("linear_rms", [each.x_rms * unit_um for each in linear], "rms of the linear response", "um"),
-        ("mesh_frequency", ratios, "mesh frequency over the natural frequency", "1"),
+    for name, values in (
+        ("n_motions", n_motions),
+        ("worst_share", worst_share),
+        ("linear_factor", [each.load_factor for each in linear]),
+        ("linear_rms", [each.x_rms * unit_um for each in linear]),
     ):
-        variables[name] = ("speed", np.array(values), {"long_name": long_name, "units": units})
-    at = np.array([jump.mesh_frequency * unit for jump in jumps])
-    variables["jump_speed"] = ("jump", at, {"long_name": "speed of the jump", "units": "rpm"})
+        variables[name] = ("speed", np.array(values), attributes(name))
+    variables["mesh_frequency"] = ("speed", np.array(ratios), attributes("frequency_ratio"))
+    at = np.array([jump.mesh_frequency * drive.resonance_rpm for jump in jumps])
+    variables["jump_speed"] = ("jump", at, attributes("jump_speed"))
     for name, words in (
-        ("run", [jump.run for jump in jumps]),
-        ("kind", [jump.kind for jump in jumps]),
-        ("from", [jump.before for jump in jumps]),
-        ("to", [jump.after for jump in jumps]),
+        ("jump_run", [jump.run for jump in jumps]),
+        ("jump_kind", [jump.kind for jump in jumps]),
+        ("jump_from", [jump.before for jump in jumps]),
+        ("jump_to", [jump.after for jump in jumps]),
     ):
-        variables[f"jump_{name}"] = ("jump", np.array(words, dtype=str), {"long_name": f"jump: {name}", "units": "1"})
+        variables[name] = ("jump", np.array(words, dtype=str), attributes(name))
     return xr.Dataset(
         variables,
-        {"run": list(RUNS), "speed": ("speed", speeds, {"long_name": "speed of the pinion", "units": "rpm"})},
+        {"run": list(RUNS), "speed": ("speed", speeds, attributes("speed"))},
         {"drive": repr(drive), "mean_force_n": drive.mean_force_n},
     )

@@ -9,12 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_number
+from gearpair._equality import equal_by_value
 from gearpair.drive import GearDrive
 from gearpair.teeth import iso_stiffness
 
 MAIN_RESONANCE, SUPERCRITICAL = 1.15, 1.5  # upper end of the main resonance, lower end of the supercritical range
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class IsoDynamicFactor:
     """K_v of ISO 6336-1, method B, over the speed; arrays have shape (n,).
@@ -57,7 +59,7 @@ def iso_dynamic_factor(
     Parameters
     ----------
     drive : GearDrive
-        Of `GearDrive.from_pair`: the formulas need its teeth.
+        Of `GearDrive.from_pair`, with a torque: the formulas need its teeth and its load.
     speeds_rpm : array_like of float, shape (n,)
         Of the pinion.
     base_pitch_um, profile_um : float
@@ -68,15 +70,6 @@ def iso_dynamic_factor(
         the standard has it for grades 6 to 12.
     application_factor : float
         K_A.
-
-    Returns
-    -------
-    IsoDynamicFactor
-
-    Raises
-    ------
-    ValueError
-        For a drive without teeth or torque, or an argument out of range.
 
     Notes
     -----
@@ -97,7 +90,7 @@ def iso_dynamic_factor(
     Examples
     --------
     >>> from gearpair import GearDrive, SpurPair
-    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, pinion_speed_rpm=3000.0, backlash_um=80.0,
+    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
     ...     transmission_error_um=5.0, damping_ratio=0.05)
     >>> iso = iso_dynamic_factor(drive, [1000.0, 8000.0, 20000.0], base_pitch_um=8.0, profile_um=8.0)
     >>> iso.k_v.round(2)

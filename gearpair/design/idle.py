@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_number
+from gearpair._equality import equal_by_value
 from gearpair.design.charts import carried_runs, check_speeds
 from gearpair.drive import GearDrive
 from gearpair.motion.measures import impact_measures
@@ -16,6 +17,7 @@ from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class IdleRattle:
     """An idle gear over the speed of its pinion, run up; arrays have shape (n,).
@@ -68,11 +70,6 @@ def idle_oscillator(
     Oscillator
         Its "mesh period" is the period of the swing.
 
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
-
     Notes
     -----
     The pinion's motion is given, so the gear's inertia alone is left, ``m = I2 / r_b2^2``, and the swing stands for the
@@ -85,9 +82,8 @@ def idle_oscillator(
     Examples
     --------
     >>> drive = GearDrive(pinion_teeth=34, pinion_inertia_kg_m2=2e-3, gear_inertia_kg_m2=2e-3,
-    ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0,
-    ...     pinion_speed_rpm=2500.0, backlash_um=100.0, transmission_error_um=10.0,
-    ...     mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
+    ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0, backlash_um=100.0,
+    ...     transmission_error_um=10.0, mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
     >>> osc = idle_oscillator(drive, 800.0, order=2.0, pinion_swing_deg=0.3, drag_torque_nm=0.2)
     >>> round(osc.error_amplitude, 2), len(osc.stiffness.levels)
     (5.02, 1)
@@ -126,15 +122,6 @@ def idle_rattle(
     order, pinion_swing_deg, drag_torque_nm
         As in `idle_oscillator`; the drag above 0.
 
-    Returns
-    -------
-    IdleRattle
-
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
-
     Notes
     -----
     The ratio of inertia torque to drag torque, ``I2 (r_b1 / r_b2) swing (order omega)^2 / T_drag``, is the criterion of
@@ -145,9 +132,8 @@ def idle_rattle(
     Examples
     --------
     >>> drive = GearDrive(pinion_teeth=34, pinion_inertia_kg_m2=2e-3, gear_inertia_kg_m2=2e-3,
-    ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0,
-    ...     pinion_speed_rpm=2500.0, backlash_um=100.0, transmission_error_um=10.0,
-    ...     mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
+    ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0, backlash_um=100.0,
+    ...     transmission_error_um=10.0, mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
     >>> found = idle_rattle(drive, [200.0, 800.0], order=2.0, pinion_swing_deg=0.3, drag_torque_nm=0.2)
     >>> found.rattle_ratio.round(2).tolist(), (found.impact_rate > 0.0).tolist()
     ([0.09, 1.47], [False, True])

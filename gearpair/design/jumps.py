@@ -100,19 +100,23 @@ def _located(run: str, before: SteadyState, after: SteadyState) -> Jump | None:
     if not orbit.converged:
         return middle
     branch = continue_orbit(orbit, "mesh_frequency", min(here, there), max(here, there), max_steps=MAX_STEPS)
-    start = int(np.argmin(np.abs(branch.values - here)))
-    ahead = slice(start, None)
+    # Where the branch turns round, two of its orbits lie at `here`: the run is on the one that it was started from.
+    apart = np.abs(branch.values - here) + np.abs(branch.points[:, 0] - orbit.points[0]).max(axis=1)
+    start = int(np.argmin(apart))
+    rows = np.arange(start, len(apart))
     if start and (branch.values[start - 1] - here) * (there - here) > 0.0:  # the branch is walked the other way
-        ahead = slice(start, None, -1)
-    stable, values = branch.stable[ahead], branch.values[ahead]
+        rows = np.arange(start, -1, -1)
+    stable = branch.stable[rows]
     if np.all(stable):  # a change that is steep but continuous, unless the run went elsewhere
-        arrived = np.abs(branch.points[ahead][-1] - after.points[0]).max(axis=1).min()
-        return None if after.period and arrived < ARRIVED else middle
-    lost = values[int(np.argmin(stable))]
-    ends = [each for each in branch.bifurcations if each.kind != "grazing"] or branch.bifurcations
+        arrived = after.period and np.abs(branch.points[rows[-1]] - after.points[0]).max(axis=1).min() < ARRIVED
+        return None if arrived else middle
+    lost = int(np.argmin(stable))
+    row = rows[max(lost - 1, 0) : lost + 1].min()  # a bifurcation belongs to the row before it, in the order walked
+    met = zip(branch.bifurcations, branch.bifurcation_rows.tolist(), strict=True)
+    ends = sorted(met, key=lambda each: (abs(each[1] - row), each[0].kind == "grazing"))
     if not ends:
         return middle
-    end = min(ends, key=lambda each: abs(each.value - lost))
+    end = ends[0][0]
     if end.kind == "flip" and after.period == 2 * before.period and not _differ(before, after, 3.0 * SMOOTH):
         return None
     return Jump(run, end.value, end.kind, *names)

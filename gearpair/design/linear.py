@@ -40,14 +40,6 @@ class LinearResponse:
 def linear_response(osc: Oscillator) -> LinearResponse:
     """The forced vibration about the static deflection, teeth always in contact and mean stiffness.
 
-    Parameters
-    ----------
-    osc : Oscillator
-
-    Returns
-    -------
-    LinearResponse
-
     Notes
     -----
     With ``Y = X - 1`` (X + 1 for a negative mean force) and the stiffness ``k = k_0 + k_1(tau)``,
@@ -71,7 +63,7 @@ def linear_response(osc: Oscillator) -> LinearResponse:
     wave = osc.stiffness.harmonics(len(order) - 1)
     wave[0] = 0.0
     force, error = np.zeros(len(order), complex), np.zeros(len(order), complex)
-    for n, amplitude, phase in ((1, osc.error_amplitude, osc.error_phase), *osc.harmonics):
+    for n, amplitude, phase in osc.all_harmonics:
         part = -0.5j * amplitude * np.exp(1j * phase)
         error[n] += part
         force[n] += part * (n * omega) ** 2

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import fields
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,8 +13,8 @@ from gearpair._checks import check_number
 from gearpair.design.charts import carried_runs, check_speeds, oscillators_at
 from gearpair.design.loads import measure_motion
 from gearpair.drive import GearDrive
-from gearpair.oscillator import Harmonic
-from gearpair.teeth import SpurPair, mesh_stiffness
+from gearpair.quantities import attributes
+from gearpair.teeth import SpurPair
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 OF_DRIVE = ("pinion_torque_nm", "backlash_um", "transmission_error_um", "damping_ratio")
 OF_PAIR = tuple(field.name for field in fields(SpurPair) if not field.name.endswith("teeth"))
 FACTORS = {name: (0.5, 2.0) for name in OF_DRIVE} | {"addendum": (0.95, 1.05)}
-# Name -> what it is, and its unit.
+# What is kept of a range of speeds, by the names of the worst of it.
 OUTCOMES = {
-    "dynamic_factor": ("largest dynamic factor", "1"),
-    "mesh_force": ("largest mesh force", "N"),
-    "time_apart": ("largest share of the time without contact", "1"),
-    "impact_range": ("speeds with impacts, together", "rpm"),
+    "dynamic_factor": "worst_dynamic_factor",
+    "mesh_force": "worst_mesh_force",
+    "time_apart": "worst_time_apart",
+    "impact_range": "impact_range",
 }
 
 
@@ -61,18 +61,13 @@ def sensitivity(
         and the worst over both runs of ``dynamic_factor``, ``mesh_force`` (N), ``time_apart`` and ``impact_range``
         (rpm). The same of the drive as it is in ``base_dynamic_factor`` and so on.
 
-    Raises
-    ------
-    ValueError
-        For an unknown name, or a value that makes no drive.
-
     Notes
     -----
-    A change of the geometry keeps inertias and damping ratio, and takes the mesh stiffness anew.
+    A change of the geometry keeps the damping ratio, and takes inertias and mesh stiffness anew: `GearDrive.replace`.
 
     Examples
     --------
-    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, pinion_speed_rpm=3000.0, backlash_um=80.0,
+    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
     ...     transmission_error_um=5.0, damping_ratio=0.08)
     >>> found = sensitivity(drive, [2000.0, 3000.0], {"damping_ratio": (0.04, 0.16)})
     >>> found.dynamic_factor.sel(change="damping_ratio", end="low").item() > found.base_dynamic_factor.item()
@@ -80,13 +75,14 @@ def sensitivity(
     """
     speeds = check_speeds(speeds_rpm)
     chosen = _default_ranges(drive) if ranges is None else dict(ranges)
+    base = {name: _value(drive, name) for name in chosen}
     drives, values = [drive], []
     for name, ends in chosen.items():
         if len(ends) != 2:
             raise ValueError(f"the range of {name} must be a low and a high value, got {ends!r}")
         for value in ends:
             values.append(check_number(name, value))
-            drives.append(_changed(drive, name, values[-1]))
+            drives.append(drive.replace(**{name: values[-1]}))
     runs = carried_runs([oscillators_at(each, speeds) for each in drives], n_transient, progress=progress)
     rows = []
     for each, (up, down) in zip(drives, runs, strict=True):
@@ -105,13 +101,12 @@ def sensitivity(
     outcome = np.array(rows[1:]).reshape(*shape, len(OUTCOMES))
     ratios = [each.mesh.contact_ratio if each.mesh else np.nan for each in drives[1:]]
     variables = {
-        name: (("change", "end"), outcome[:, :, k], {"long_name": long_name, "units": unit})
-        for k, (name, (long_name, unit)) in enumerate(OUTCOMES.items())
+        name: (("change", "end"), outcome[:, :, k], attributes(worst))
+        for k, (name, worst) in enumerate(OUTCOMES.items())
     } | {f"base_{name}": ((), rows[0][k]) for k, name in enumerate(OUTCOMES)}
     variables["value"] = (("change", "end"), np.array(values).reshape(shape), {"long_name": "changed to"})
-    variables["contact_ratio"] = (("change", "end"), np.array(ratios).reshape(shape), {"units": "1"})
+    variables["contact_ratio"] = (("change", "end"), np.array(ratios).reshape(shape), attributes("contact_ratio"))
     coordinates = {"change": list(chosen), "end": ["low", "high"]}
-    base = {name: _value(drive, name) for name in chosen}
     return xr.Dataset(variables, coordinates, {"drive": repr(drive), "base": base})
 
 
@@ -125,8 +120,6 @@ def _default_ranges(drive: GearDrive) -> dict[str, tuple[float, float]]:
 
 def _value(drive: GearDrive, name: str) -> float:
     """The present value of what can be changed."""
-    if name == "damping_ratio":
-        return drive.damping_n_s_per_m / drive.critical_damping_n_s_per_m
     if name in OF_DRIVE:
         return float(getattr(drive, name))
     if name not in OF_PAIR:
@@ -134,28 +127,3 @@ def _value(drive: GearDrive, name: str) -> float:
     if drive.mesh is None:
         raise ValueError(f"{name} can be changed only where the drive comes from GearDrive.from_pair")
     return float(getattr(drive.mesh.pair, name))
-
-
-def _changed(drive: GearDrive, name: str, value: float) -> GearDrive:
-    """The drive with one number changed."""
-    present = _value(drive, name)
-    if name == "damping_ratio":
-        return replace(drive, damping_n_s_per_m=value * drive.critical_damping_n_s_per_m)
-    if name == "transmission_error_um" and drive.error_harmonics and present:
-        scaled = [Harmonic(n, size * value / present, phase) for n, size, phase in drive.error_harmonics]
-        return replace(drive, transmission_error_um=value, error_harmonics=tuple(scaled))
-    if name in OF_DRIVE:
-        changes: dict[str, Any] = {name: value}
-        return replace(drive, **changes)
-    assert drive.mesh is not None
-    pair = drive.mesh.pair.replace(**{name: value})
-    mesh = mesh_stiffness(pair, coupling=drive.mesh.coupling)
-    geometry = replace(
-        drive,
-        pinion_base_radius_mm=pair.pinion.base_radius_mm,
-        gear_base_radius_mm=pair.gear.base_radius_mm,
-        mean_stiffness_n_per_um=mesh.mean * 1e-6,
-        stiffness=mesh.wave(len(drive.stiffness.levels)),
-        mesh=mesh,
-    )
-    return _changed(geometry, "damping_ratio", _value(drive, "damping_ratio"))

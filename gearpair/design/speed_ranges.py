@@ -69,7 +69,7 @@ def speeds_to_avoid(chart: xr.Dataset) -> tuple[SpeedRange, ...]:
     --------
     >>> from gearpair import GearDrive, SpurPair
     >>> from gearpair.design import speed_chart
-    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=1000.0, pinion_speed_rpm=3000.0, backlash_um=80.0,
+    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=1000.0, backlash_um=80.0,
     ...     transmission_error_um=1.0, damping_ratio=0.08)
     >>> speeds_to_avoid(speed_chart(drive, [1000.0, 1500.0], n_starts=2))
     ()
@@ -126,10 +126,6 @@ def speed_range_table(ranges: Iterable[SpeedRange]) -> Table:
     ----------
     ranges : iterable of SpeedRange
         Of `gearpair.design.speeds_to_avoid`.
-
-    Returns
-    -------
-    Table
 
     Examples
     --------

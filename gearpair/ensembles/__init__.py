@@ -1,6 +1,5 @@
 """Ensembles of motions: sweeps and maps over parameters, basins over starts, and where each motion lives."""
 
-from gearpair.ensembles.datasets import symbol
 from gearpair.ensembles.planes import attractor_motions, attractor_states, basins
 from gearpair.ensembles.ranges import (
     MotionRange,
@@ -39,6 +38,5 @@ __all__ = [
     "range_of",
     "representatives",
     "sweep",
-    "symbol",
     "uncertainty_exponent",
 ]

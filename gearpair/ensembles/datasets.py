@@ -1,4 +1,4 @@
-"""What sweeps, maps and planes of starts have in common: names, units, and the variables of a settled motion."""
+"""What sweeps, maps and planes of starts have in common: their oscillators, and the variables of a settled motion."""
 
 from __future__ import annotations
 
@@ -13,58 +13,10 @@ from gearpair._flow.settle import PERIODIC, Settled
 from gearpair.motion.impacts import IMPACT_STATES, impact_codes
 from gearpair.motion.settling import STATUSES, Status
 from gearpair.oscillator import Oscillator
+from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
     import xarray as xr
-
-LONG_NAMES = {
-    "mean_force": "mean force F_m'",
-    "error_amplitude": "transmission error amplitude F_ah",
-    "error_phase": "transmission error phase phi_h",
-    "damping_ratio": "damping ratio zeta",
-    "mesh_frequency": "mesh frequency Omega_h",
-    "contact_ratio": "contact ratio epsilon",
-    "a": "stiffness added in double contact, a",
-    "b": "stiffness missing in single contact, b",
-    "x": "X on the section",
-    "v": "X' on the section",
-    "status": "what the motion became",
-    "period": "period in mesh periods, 0 unless periodic",
-    "impact_state": "impact state",
-    "x_min": "smallest X",
-    "x_max": "largest X",
-    "exponent": "largest Lyapunov exponent per unit tau",
-    "exponent_error": "standard error of the largest exponent",
-    "section_x": "X on the section, the smallest of the cycle; nan unless periodic",
-    "section_v": "X' there",
-    "settling_time": "mesh periods until the motion was certain to stay with its attractor",
-    "impacts_before": "contacts made in that time",
-    "worst_impact_state": "impact state of the whole way, the attractor included",
-    "largest_displacement": "largest |X| on the whole way, the attractor included",
-    "attractor": "number of the attractor",
-    "tips_to": "number of the attractor that one that has ended goes over to",
-    "share": "share of the starts",
-    "share_error": "standard error of the share, for starts drawn at random",
-    "drive_impacts": "contacts made on the drive side per mesh period",
-    "coast_impacts": "contacts made on the coast side per mesh period",
-    "drive_velocity": "largest approach speed on the drive side",
-    "coast_velocity": "largest approach speed on the coast side",
-    "drive_velocity_mean": "mean approach speed on the drive side",
-    "coast_velocity_mean": "mean approach speed on the coast side",
-    "drive_impulse": "impulse on the drive side per mesh period",
-    "coast_impulse": "impulse on the coast side per mesh period",
-    "drive_share": "share of the time in drive-side contact",
-    "coast_share": "share of the time in coast-side contact",
-    "flight_share": "share of the time without contact",
-    "drive_force": "largest mesh force on the drive side",
-    "coast_force": "largest mesh force on the coast side",
-    "load_factor": "largest mesh force over the mean force",
-    "x_mean": "mean of X",
-    "x_rms": "root mean square of X about its mean",
-    "peak_to_peak": "peak-to-peak value of X",
-    "n_attractors": "number of attractors that the starts reach",
-    "hysteresis": "whether the motion carried up differs from that carried down",
-}
 
 # What the codes of a variable stand for; the first is code -1.
 WORDS: dict[str, tuple[str, ...]] = {
@@ -86,16 +38,9 @@ def oscillators_along(
     return [osc.replace(**{parameter: value}) for value in checked], np.array(checked)
 
 
-def attributes(name: str) -> dict[str, str]:
-    """Units and long name of a variable, by its name."""
-    long_name = LONG_NAMES.get(name) or LONG_NAMES[name.removeprefix("attractor_")]
-    return {"long_name": long_name, "units": "rad" if name == "error_phase" else "1"}
-
-
 def axis_attributes(name: str) -> dict[str, str]:
     """Units and long name of an axis: a parameter, or X or X' of a plane of starts."""
-    start = {"x": "initial X", "v": "initial X'"}.get(name)
-    return attributes(name) if start is None else {"long_name": start, "units": "1"}
+    return attributes({"x": "start_x", "v": "start_v"}.get(name, name))
 
 
 def dataset(
@@ -167,14 +112,3 @@ def settled_variables(out: Settled, dims: tuple[str, ...], shape: tuple[int, ...
     columns = settled_columns(out)
     del columns["section_x"], columns["section_v"]
     return variables_of(columns, dims, shape)
-
-
-def symbol(parameter: str) -> str:
-    """The article's symbol of a parameter, in plain letters.
-
-    Examples
-    --------
-    >>> symbol("mesh_frequency"), symbol("a")
-    ('Omega_h', 'a')
-    """
-    return attributes(parameter)["long_name"].rsplit(" ", 1)[-1]

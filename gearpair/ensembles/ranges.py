@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearpair._checks import check_number
-from gearpair.ensembles.datasets import oscillators_along, symbol
+from gearpair.ensembles.datasets import oscillators_along
 from gearpair.ensembles.sweeps import sweep
 from gearpair.motion.names import CHAOS, IMPACT_NAMES, Motion, motions_of, periodic
 from gearpair.motion.steady import SteadyState, steady_state
 from gearpair.oscillator import Oscillator
+from gearpair.quantities import symbol
 from gearpair.table import Table
 
 if TYPE_CHECKING:
@@ -226,4 +227,4 @@ def motion_table(states: Mapping[Any, SteadyState], parameter: str, digits: int 
         cells.append(f"{abs(state.multipliers[0]):.{digits}f}")
         value = f"{state.oscillator.parameter(parameter):.{digits}f}"
         rows.append([name, value, *(cells if state.period else ["–"] * len(cells))])
-    return Table(["motion", symbol(parameter), "X_min", "X_max", "impact state", "largest multiplier"], rows)
+    return Table(["motion", *map(symbol, (parameter, "x_min", "x_max")), "impact state", "largest multiplier"], rows)

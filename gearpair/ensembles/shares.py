@@ -9,11 +9,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
 from gearpair.ensembles.capture import known_attractors, numbered, scouts
-from gearpair.ensembles.datasets import attributes, dataset, oscillators_along, settled_columns
+from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns
 from gearpair.ensembles.planes import attractor_variables, basins
 from gearpair.motion.names import motions_of
 from gearpair.motion.settling import MANY, BatchOptions, SettleOptions, settle_batch
 from gearpair.oscillator import Oscillator
+from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -109,7 +110,7 @@ def motion_shares(
     motions = sorted({motion for plane in planes for motion in plane.ravel()})
     share = [[float(np.mean(plane == motion)) for motion in motions] for plane in planes]
     columns = {
-        "share": ((parameter, "motion"), share, {"long_name": "share of the starts", "units": "1"}),
+        "share": ((parameter, "motion"), share, attributes("share")),
         "status": ("motion", [str(motion.status) for motion in motions], attributes("status")),
         "period": ("motion", [motion.period or 0 for motion in motions], attributes("period")),
     }

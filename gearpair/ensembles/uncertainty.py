@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
+from gearpair._equality import equal_by_value
 
 
 @dataclass(frozen=True)
@@ -65,6 +66,7 @@ def basin_entropy(labels: ArrayLike, box: int = 5) -> BasinEntropy:
     return BasinEntropy(float(entropies.mean()), boundary, float(mixed.mean()))
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class UncertaintyExponent:
     """How the share of uncertain starts falls with the error of the start.

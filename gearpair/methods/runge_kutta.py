@@ -12,10 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair._checks import check_choice, check_count, check_number, check_options
 from gearpair._cores import on_all_cores
 from gearpair._flow.runge_kutta import COMPLETE, Steps, integrate_lanes
-from gearpair.ensembles.datasets import attributes, dataset, oscillators_along, section_variables
+from gearpair.ensembles.datasets import dataset, oscillators_along, section_variables
 from gearpair.motion.settling import ONE, lanes_of
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
+from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -161,7 +162,7 @@ def runge_kutta_sweep(
     points, status, calls = method.integrate(oscillators, x, v, n_transient, n_samples, chain)
     points[status != COMPLETE] = np.nan
     drawn = section_diagram(osc, {parameter: checked}, points, closeness, seeding=seeding, rtol=rtol, atol=atol)
-    return drawn.assign(calls=(parameter, calls, {"long_name": "calls of the right-hand side", "units": "1"}))
+    return drawn.assign(calls=(parameter, calls, attributes("calls")))
 
 
 def section_period(points: ArrayLike, closeness: float = 0.01) -> int:

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gearpair._equality import equal_by_value
 from gearpair.motion.trajectories import Trajectory
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class Spectrum:
     """One-sided amplitude spectrum of X; both arrays have shape (n,).

@@ -61,7 +61,7 @@ def multipliers_of(monodromy: NDArray[np.float64]) -> NDArray[np.complex128]:
     half = 0.5 * (monodromy[..., 0, 0] + monodromy[..., 1, 1])
     determinant = monodromy[..., 0, 0] * monodromy[..., 1, 1] - monodromy[..., 0, 1] * monodromy[..., 1, 0]
     root = np.sqrt(half * half - determinant + 0j)
-    first = np.where(root.real == 0.0, half + root, half + np.where(half < 0.0, -1.0, 1.0) * root)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        second = np.where(root.real == 0.0, half - root, determinant / first)
+    real = root.real > 0.0  # of a pair on the real line, the smaller is taken from the product: no digits cancel
+    first = half + np.where(real & (half < 0.0), -1.0, 1.0) * root
+    second = np.divide(determinant, first, out=np.asarray(half - root), where=real)
     return np.stack([first, second], axis=-1)

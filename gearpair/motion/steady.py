@@ -8,6 +8,7 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import NDArray
 
+from gearpair._equality import equal_by_value
 from gearpair._flow.settle import Settled
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.names import Motion
@@ -17,6 +18,7 @@ from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class SteadyState:
     """A settled motion.

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
 from gearpair._cores import on_all_cores
+from gearpair._equality import equal_by_value
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.records import Samples
 from gearpair._flow.walk import (
@@ -32,6 +33,7 @@ CAPPED = {
 }
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class Impacts:
     """Every crossing of X = +-1, in order; all arrays have shape (n,).
@@ -57,6 +59,7 @@ class Impacts:
         return len(self.tau)
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class Trajectory:
     """A sampled motion; `tau`, `x` and `v` have shape (n_periods * samples_per_period + 1,).

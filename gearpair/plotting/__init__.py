@@ -1,5 +1,11 @@
 """Pictures of results: every function takes a result and, if you like, an Axes, and returns the Axes.
 
+What they share is said here once. `ax` is what to draw on, a new figure in the book's style without it; `title` stands
+above the picture, or inside it where the legend is above; `legend` is whether the colours are named; `colour` and
+`label` are those of the curve. A result that is not described is made as the example shows: a `sweep` by
+`gearpair.sweep`, a plane by `gearpair.basins`, a grid by `gearpair.parameter_map`, a `chart` by
+`gearpair.design.speed_chart`. Under the first sentence of each stands what its Axes holds.
+
 Colours say the same everywhere (`MOTION_COLOURS`): one for each period, dark grey for chaos; they stay apart for
 colour-blind readers. Nothing is set at import: ``plt.style.use(STYLE)``, or ``with plt.style.context(STYLE):``, gives
 the book's look.
@@ -15,6 +21,7 @@ from gearpair.plotting.article import (
 )
 from gearpair.plotting.bifurcations import bifurcation_curves, branches
 from gearpair.plotting.diagrams import (
+    attractor_shares,
     bifurcation_diagram,
     exponents,
     extremes,
@@ -23,7 +30,15 @@ from gearpair.plotting.diagrams import (
     range_lanes,
     range_strips,
 )
-from gearpair.plotting.maps import attractor_shares, impact_map, quantity_map
+from gearpair.plotting.maps import (
+    attractor_points,
+    basins,
+    finite_exponents,
+    impact_map,
+    impact_states,
+    period_map,
+    quantity_map,
+)
 from gearpair.plotting.methods import (
     certificate,
     certified_steps,
@@ -33,7 +48,6 @@ from gearpair.plotting.methods import (
     work_precision,
 )
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
-from gearpair.plotting.planes import attractor_points, basins, finite_exponents, impact_states, period_map
 from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, rattle, tooth_loads, tornado
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.teeth import (

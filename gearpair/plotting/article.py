@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -17,24 +18,19 @@ from gearpair.article.case.search import TOLERANCES
 from gearpair.article.case.trials import Ranked, Trial
 from gearpair.article.published import StiffnessRow
 from gearpair.article.readings import Hypothesis
-from gearpair.plotting.style import BACKLASH, BOUNDARY, INK, LABELS, STYLE, motion_colour, new_axes
+from gearpair.plotting.style import BACKLASH, BOUNDARY, INK, STYLE, motion_colour, name_rows, new_axes, note
+from gearpair.quantities import QUANTITIES, axis_label
 
 
 def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax: Axes | None = None) -> Axes:
     """Mean and best score of every hypothesis, in their order.
 
+    A bar from the mean to the best score for each.
+
     Parameters
     ----------
-    ranked : sequence of Ranked
-        Of `gearpair.article.case.ranking`.
     marked : mapping of str to Hypothesis
         The ones to name.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-        With a bar from the mean to the best score for each.
 
     Examples
     --------
@@ -53,10 +49,8 @@ def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax
     for name, hypothesis in marked.items():
         for place, entry in zip(places, ranked, strict=True):
             if entry.hypothesis == hypothesis:
-                ax.annotate(
-                    name, (place, entry.best.total), xytext=(6, 8), textcoords="offset points", fontsize=8.5,
-                    arrowprops={"arrowstyle": "-", "color": BOUNDARY, "linewidth": 0.7},
-                )  # fmt: skip
+                arrow: dict[str, Any] = {"arrowstyle": "-", "color": BOUNDARY, "linewidth": 0.7}
+                note(ax, name, (float(place), entry.best.total), (6, 8), fontsize=8.5, arrowprops=arrow)
     ax.set(xlabel="place", ylabel="score", xlim=(0, len(ranked) + 1), ylim=(0.0, 1.0))
     ax.legend(loc="upper right")
     return ax
@@ -65,17 +59,7 @@ def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax
 def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = "") -> Axes:
     """Where each motion exists along a parameter, over the published ranges.
 
-    Parameters
-    ----------
-    reached : Reached
-        Of `gearpair.article.case.reached`.
-    ax : Axes, optional
-    title : str
-
-    Returns
-    -------
-    Axes
-        A row for each published motion: an outlined box where it is published, a dot where it was reached.
+    A row for each published motion: an outlined box where it is published, a dot where it was reached.
 
     Examples
     --------
@@ -87,19 +71,17 @@ def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = ""
     """
     motions = list(dict.fromkeys(published_motions(reached.parameter)))
     ax = new_axes(ax, 0.7 + 0.3 * len(motions))
-    values = reached.values
+    ranges = published.ranges(reached.parameter)
     for row, motion in enumerate(motions):
         colour = motion_colour(motion)
-        for stated in published.ranges(reached.parameter):
+        for stated in ranges:
             if stated.motion == motion:
                 width = stated.upper - stated.lower
                 ax.barh(row, width, left=stated.lower, height=0.8, color=colour, alpha=0.25, linewidth=0)
-        here = values[reached.has(motion)]
+        here = reached.values[reached.has(motion)]
         ax.plot(here, np.full(len(here), row), "o", markersize=3.5, color=colour)
-    ax.set_yticks(range(len(motions)), list(map(str, motions)))
-    ranges = published.ranges(reached.parameter)
-    ax.set(xlabel=LABELS[reached.parameter], xlim=(ranges[0].lower, ranges[-1].upper), ylim=(len(motions) - 0.5, -0.5))
-    ax.set_title(title)
+    name_rows(ax, motions, reached.parameter)
+    ax.set(xlim=(ranges[0].lower, ranges[-1].upper), title=title)
     return ax
 
 
@@ -110,12 +92,6 @@ def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], 
     ----------
     frequency, damping : sequence of Reached
         Along the two parameters, for the same hypotheses in the same order.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-        With one curve for each axis.
 
     Examples
     --------
@@ -140,18 +116,15 @@ def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], 
 def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = None) -> list[Axes]:
     """How far each published boundary is from the drawn one, against the steps a mesh period of fixed-step diagrams.
 
+    One for each published boundary, with one line of dots for each way to sweep, and the tolerance as a band. Dots on
+    the rim lie farther out; what a diagram does not have is not drawn.
+
     Parameters
     ----------
     trials : sequence of Trial
         Of `gearpair.article.case.run_trials`, with integrators of fixed steps.
     axes : sequence of eight Axes, optional
         A new figure without them.
-
-    Returns
-    -------
-    list of Axes
-        One for each published boundary, with one line of dots for each way to sweep, and the tolerance as a band. Dots
-        on the rim lie farther out; what a diagram does not have is not drawn.
 
     Examples
     --------
@@ -181,8 +154,8 @@ def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = No
             ]
             steps = [n or 0 for n, distance in drawn if distance is not None]
             away = np.clip([distance for _, distance in drawn if distance is not None], -rim, rim)
-            ax.plot(steps, away, linestyle="", marker=marker, markersize=3, color=colour, label=seeding)
-        symbol = LABELS[boundary.parameter].split("$")[1]
+            ax.plot(steps, away, marker, markersize=3, color=colour, label=seeding)
+        symbol = QUANTITIES[boundary.parameter].in_tex
         ax.set(xscale="log", ylim=(-1.1 * rim, 1.1 * rim), title=f"{boundary.item}: ${symbol}$ = {boundary.value:g}")
         ax.set_xticks([20, 50, 100, 200, 400], ["20", "50", "100", "200", "400"])
         ax.minorticks_off()
@@ -199,17 +172,14 @@ def stiffness_trends(
 ) -> list[Axes]:
     """Contact ratio, a and b against the gear's teeth: what is published and what is computed.
 
+    Each with one line for the article, named first, and one for each entry of `computed`.
+
     Parameters
     ----------
     published : sequence of StiffnessRow
     computed : mapping of str to sequence of StiffnessRow
         By the name for the legend.
     axes : sequence of three Axes
-
-    Returns
-    -------
-    list of Axes
-        Each with one line for the article, named first, and one for each entry of `computed`.
 
     Examples
     --------
@@ -222,11 +192,9 @@ def stiffness_trends(
     colours = ("#D55E00", INK, "#009E73")
     for ax, name in zip(axes, ("contact_ratio", "a", "b"), strict=True):
         for k, (label, rows) in enumerate({"the article": published, **computed}.items()):
-            ax.plot(
-                [row.teeth_wheel for row in rows], [getattr(row, name) for row in rows], marker="o" if k else "s",
-                markersize=5, color=colours[k % len(colours)], linestyle="-" if k else "--", label=label,
-            )  # fmt: skip
-        ax.set(xlabel="teeth of the gear $z_2$", title=LABELS[name])
+            teeth, values = [row.teeth_wheel for row in rows], [getattr(row, name) for row in rows]
+            ax.plot(teeth, values, "o-" if k else "s--", markersize=5, color=colours[k % len(colours)], label=label)
+        ax.set(xlabel="teeth of the gear $z_2$", title=axis_label(name))
         ax.set_xticks([row.teeth_wheel for row in published])
     return list(axes)
 
@@ -234,18 +202,14 @@ def stiffness_trends(
 def contact_ratio_cloud(ratios: ArrayLike, published: Sequence[StiffnessRow], ax: Axes | None = None) -> Axes:
     """Contact ratio of the first pair and its growth to the last: many tooth systems, and the article.
 
+    One dot for each system and a star for the article.
+
     Parameters
     ----------
     ratios : array_like, shape (n, m)
         Contact ratios of n tooth systems at the m pairs of the article.
     published : sequence of StiffnessRow
         Those m pairs.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-        With one dot for each system and a star for the article.
 
     Examples
     --------
@@ -257,22 +221,15 @@ def contact_ratio_cloud(ratios: ArrayLike, published: Sequence[StiffnessRow], ax
     ax = new_axes(ax, 3.2)
     values = np.asarray(ratios, dtype=float)
     first, last = published[0], published[-1]
-    ax.plot(
-        values[:, 0], values[:, -1] - values[:, 0], linestyle="", marker=".", markersize=3, markeredgewidth=0,
-        color=INK, alpha=0.45, rasterized=True,
-    )  # fmt: skip
-    ax.plot(
-        first.contact_ratio, last.contact_ratio - first.contact_ratio, linestyle="", marker="*", markersize=13,
-        color="#D55E00",
-    )  # fmt: skip
+    looks: dict[str, Any] = {"markersize": 3, "markeredgewidth": 0, "alpha": 0.45, "rasterized": True}
+    ax.plot(values[:, 0], values[:, -1] - values[:, 0], ".", color=INK, **looks)
+    ax.plot(first.contact_ratio, last.contact_ratio - first.contact_ratio, "*", markersize=13, color="#D55E00")
     handles = [
         Line2D([], [], linestyle="", marker="*", markersize=11, color="#D55E00", label="the article"),
         Line2D([], [], linestyle="", marker=".", markersize=6, color=INK, label="tooth systems that can run"),
     ]
     ax.legend(handles=handles, loc="upper right")
     ax.axhline(0.0, color=BOUNDARY, linewidth=0.6)
-    ax.set(
-        xlabel=rf"contact ratio at $z_2 = {first.teeth_wheel}$",
-        ylabel=rf"growth to $z_2 = {last.teeth_wheel}$",
-    )
+    ax.set_xlabel(rf"contact ratio at $z_2 = {first.teeth_wheel}$")
+    ax.set_ylabel(rf"growth to $z_2 = {last.teeth_wheel}$")
     return ax

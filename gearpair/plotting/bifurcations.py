@@ -14,7 +14,8 @@ from matplotlib.patheffects import withStroke
 from gearpair.bifurcations.branches import Branch
 from gearpair.bifurcations.curves import BifurcationCurve
 from gearpair.motion.names import periodic
-from gearpair.plotting.style import INK, LABELS, motion_colour, new_axes
+from gearpair.plotting.style import INK, motion_colour, new_axes
+from gearpair.quantities import axis_label
 
 MARKERS = {"fold": "^", "flip": "o", "grazing": "D"}
 DASHES: dict[str, Any] = {"fold": "-", "flip": "--", "grazing": ":"}
@@ -24,6 +25,8 @@ def branches(
     found: Iterable[Branch], ax: Axes | None = None, *, periods: Sequence[int] | None = None, markers: bool = True
 ) -> Axes:
     """X on the section along branches of orbits: solid where stable, dashed where unstable, bifurcations marked.
+
+    One line for each run of stable or of unstable orbits of each section point of each branch.
 
     Parameters
     ----------
@@ -35,11 +38,6 @@ def branches(
         The periods to draw; all when not given.
     markers : bool
         Mark folds (triangles), flips (circles) and grazings (diamonds).
-
-    Returns
-    -------
-    Axes
-        With one line for each run of stable or of unstable orbits of each section point of each branch.
 
     Examples
     --------
@@ -62,36 +60,31 @@ def branches(
                 ax.plot(branch.values, shown, color=colour, **style)
         for b in branch.bifurcations if markers else ():
             kinds.add(b.kind)
-            ax.plot(
-                b.value, b.x, marker=MARKERS[b.kind], markersize=3.6, color=colour, markeredgecolor="white",
-                markeredgewidth=0.5, linestyle="", zorder=5,
-            )  # fmt: skip
-        ax.set_xlabel(LABELS[branch.parameter])
-    ax.set_ylabel(LABELS["section"])
-    handles = [Line2D([], [], marker=MARKERS[k], linestyle="", color="#555555", label=k) for k in MARKERS if k in kinds]
-    if handles:
-        _add_key(ax, handles)
+            rim: dict[str, Any] = {"markeredgecolor": "white", "markeredgewidth": 0.5}
+            ax.plot(b.value, b.x, MARKERS[b.kind], markersize=3.6, color=colour, zorder=5, **rim)
+        ax.set_xlabel(axis_label(branch.parameter))
+    ax.set_ylabel(axis_label("section"))
+    _add_key(
+        ax, [Line2D([], [], marker=MARKERS[k], linestyle="", color="#555555", label=k) for k in MARKERS if k in kinds]
+    )
     return ax
 
 
 def _add_key(ax: Axes, handles: list[Line2D]) -> None:
     """A key inside the axes, beside the legend of motions that may stand above them."""
-    names = [str(handle.get_label()) for handle in handles]
-    ax.add_artist(
-        Legend(
-            ax, handles, names, loc="upper right", ncols=len(handles), framealpha=0.9, edgecolor="none", frameon=True
-        )
-    )
+    if handles:
+        names = [str(handle.get_label()) for handle in handles]
+        looks: dict[str, Any] = {"loc": "upper right", "framealpha": 0.9, "edgecolor": "none", "frameon": True}
+        ax.add_artist(Legend(ax, handles, names, ncols=len(handles), **looks))
 
 
 def _runs(stable: np.ndarray, wanted: bool) -> np.ndarray:
-    """Where orbits are as wanted, widened by one so that solid and dashed runs meet."""
+    """Where orbits are as wanted; those of unstable ones are widened by one, so that solid and dashed runs meet."""
     inside = stable == wanted
-    if wanted:
-        return inside
     widened = inside.copy()
-    widened[1:] |= inside[:-1]
-    widened[:-1] |= inside[1:]
+    if not wanted:
+        widened[1:] |= inside[:-1]
+        widened[:-1] |= inside[1:]
     return widened
 
 
@@ -109,11 +102,6 @@ def bifurcation_curves(
     colour : str, optional
         Of all curves; that of the orbit's period when not given.
 
-    Returns
-    -------
-    Axes
-        With one line for each curve.
-
     Examples
     --------
     >>> import gearpair as gp
@@ -129,12 +117,11 @@ def bifurcation_curves(
         shade = colour or motion_colour(periodic(curve.period))
         halo = [withStroke(linewidth=2.4, foreground="white")]
         ax.plot(*curve.values.T, color=shade, linestyle=DASHES[curve.kind], linewidth=1.1, path_effects=halo)
-        ax.set(xlabel=LABELS[curve.parameters[0]], ylabel=LABELS[curve.parameters[1]])
+        ax.set(xlabel=axis_label(curve.parameters[0]), ylabel=axis_label(curve.parameters[1]))
     kinds = [kind for kind in DASHES if any(kind == curve.kind for curve in drawn)]
     handles = [Line2D([], [], color=colour or INK, linestyle=DASHES[kind], label=kind) for kind in kinds]
     if colour is None:
         periods = sorted({curve.period for curve in drawn})
         handles += [Line2D([], [], color=motion_colour(m), label=str(m)) for m in map(periodic, periods)]
-    if handles:
-        _add_key(ax, handles)
+    _add_key(ax, handles)
     return ax

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from itertools import groupby
 
 import numpy as np
 import xarray as xr
@@ -14,18 +15,21 @@ from gearpair.ensembles.ranges import MotionRange, motion_ranges, swept_paramete
 from gearpair.motion.names import CHAOS, Motion, motions_of
 from gearpair.motion.settling import Status
 from gearpair.plotting.style import (
-    BACKLASH,
     BOUNDARY,
     INK,
-    LABELS,
     add_motion_legend,
     legend_name,
     motion_colour,
+    name_rows,
     new_axes,
+    note,
+    over_parameter,
+    shade_backlash,
 )
+from gearpair.quantities import axis_label
 
 LETTER = 0.0115  # share of the axis that a letter of a bar's name takes
-REACH = 10.0  # |X| where a diagram ends
+LARGEST_DRAWN = 10.0  # |X| where a diagram ends
 
 
 def bifurcation_diagram(
@@ -35,31 +39,21 @@ def bifurcation_diagram(
     title: str = "",
     legend: bool = True,
     size: float = 1.1,
-    reach: float = REACH,
+    reach: float = LARGEST_DRAWN,
 ) -> Axes:
     """Section points of X at each value of a sweep, coloured by the motion's period.
 
     A motion that is larger than `reach`, or that has escaped, would leave the others no room: it is not drawn, and a
     triangle of its colour at the upper rim says where it is.
 
+    One line, labelled with its name, for each kind of motion, and one of triangles for those beyond `reach`.
+
     Parameters
     ----------
-    sweep : xarray.Dataset
-        Of `gearpair.sweep`.
-    ax : Axes, optional
-    title : str
-        Stands inside the axes, top left.
-    legend : bool
-        Name the colours above the axes.
     size : float
         Diameter of a dot in points; those of chaotic motions are smaller.
     reach : float
         The largest ``|X|`` that is drawn.
-
-    Returns
-    -------
-    Axes
-        With one line, labelled with its name, for each kind of motion, and one of triangles for those beyond `reach`.
 
     Examples
     --------
@@ -82,18 +76,17 @@ def bifurcation_diagram(
         where = np.repeat(values[names == name], points.shape[1])
         many = not chosen[0].period
         ax.plot(
-            where, points.ravel(), linestyle="", marker=".", markeredgewidth=0, rasterized=True, label=name,
-            markersize=0.6 * size if many else 1.6 * size, alpha=0.5 if many else 1.0,
-            color=motion_colour(chosen[0]),
+            where, points.ravel(), ".", markersize=0.6 * size if many else 1.6 * size, alpha=0.5 if many else 1.0,
+            color=motion_colour(chosen[0]), markeredgewidth=0, rasterized=True, label=name,
         )  # fmt: skip
         if beyond.any():
             ax.plot(
-                values[names == name][beyond], np.ones(beyond.sum()), transform=ax.get_xaxis_transform(), linestyle="",
-                marker="^", markersize=3.5, markeredgewidth=0.4, markeredgecolor="#777777", clip_on=False,
+                values[names == name][beyond], np.ones(beyond.sum()), "^", transform=ax.get_xaxis_transform(),
+                markersize=3.5, markeredgewidth=0.4, markeredgecolor="#777777", clip_on=False,
                 markerfacecolor=motion_colour(chosen[0]), label=f"{name}, not drawn",
             )  # fmt: skip
-    ax.set(xlabel=LABELS[parameter], ylabel=LABELS["section"], xlim=(values.min(), values.max()))
-    ax.annotate(title, (0.0, 1.0), xytext=(6, -4), xycoords="axes fraction", textcoords="offset points", va="top")
+    over_parameter(ax, parameter, values, axis_label("section"))
+    note(ax, title, (0.0, 1.0), (6, -4), xycoords="axes fraction", va="top")
     if legend:
         add_motion_legend(ax, motions)
     return ax
@@ -118,10 +111,6 @@ def mark_boundaries(boundaries: Iterable[Boundary], ax: Axes) -> Axes:
     ax : Axes
         Of a diagram over their parameter; boundaries outside its limits are left out.
 
-    Returns
-    -------
-    Axes
-
     Examples
     --------
     >>> from matplotlib import pyplot as plt
@@ -141,18 +130,7 @@ def mark_boundaries(boundaries: Iterable[Boundary], ax: Axes) -> Axes:
 def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """Smallest and largest X along a sweep, coloured by motion, over the strip where the teeth are out of contact.
 
-    Parameters
-    ----------
-    sweep : xarray.Dataset
-        Of `gearpair.sweep`.
-    ax : Axes, optional
-    legend : bool
-        Name the colours above the axes.
-
-    Returns
-    -------
-    Axes
-        With one line of dots each for the smallest and the largest X of every kind of motion.
+    One line of dots each for the smallest and the largest X of every kind of motion.
 
     Examples
     --------
@@ -166,39 +144,17 @@ def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) 
     values, motions = sweep[parameter].values, motions_of(sweep)
     shade_backlash(ax, horizontal=True)
     for motion in sorted(set(motions)):
-        for extreme in ("x_min", "x_max"):
-            ax.plot(
-                values[motions == motion], sweep[extreme].values[motions == motion], linestyle="", marker=".",
-                markersize=2, color=motion_colour(motion), label=str(motion) if extreme == "x_min" else None,
-            )  # fmt: skip
-    ax.set(xlabel=LABELS[parameter], ylabel=r"$X_{\min}$ and $X_{\max}$", xlim=(values.min(), values.max()))
+        chosen, colour = motions == motion, motion_colour(motion)
+        for extreme, label in (("x_min", str(motion)), ("x_max", None)):
+            ax.plot(values[chosen], sweep[extreme].values[chosen], ".", markersize=2, color=colour, label=label)
+    over_parameter(ax, parameter, values, r"$X_{\min}$ and $X_{\max}$")
     if legend:
         add_motion_legend(ax, motions)
     return ax
 
 
-def shade_backlash(ax: Axes, *, horizontal: bool) -> None:
-    """The strip |X| < 1, where no teeth touch, and its two boundaries."""
-    span, line = (ax.axhspan, ax.axhline) if horizontal else (ax.axvspan, ax.axvline)
-    span(-1.0, 1.0, color=BACKLASH, zorder=-2, linewidth=0)
-    for side in (-1.0, 1.0):
-        line(side, color=BOUNDARY, linewidth=0.7, linestyle=(0, (5, 3)), zorder=-1)
-
-
 def exponents(sweep: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, label: str | None = None) -> Axes:
     """The largest Lyapunov exponent along a sweep, with its standard error and the line at zero.
-
-    Parameters
-    ----------
-    sweep : xarray.Dataset
-        Of `gearpair.sweep`.
-    ax : Axes, optional
-    colour, label : str
-        Of the curve.
-
-    Returns
-    -------
-    Axes
 
     Examples
     --------
@@ -215,7 +171,7 @@ def exponents(sweep: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, l
     ax.fill_between(values, largest - 2.0 * error, largest + 2.0 * error, color=colour, alpha=0.25, linewidth=0)
     ax.plot(values, largest, color=colour, linewidth=0.9, label=label)
     ax.fill_between(values, 0.0, largest, where=largest > 0.0, color=motion_colour(CHAOS), alpha=0.25, linewidth=0)
-    ax.set(xlabel=LABELS[parameter], ylabel=LABELS["exponent"], xlim=(values.min(), values.max()))
+    over_parameter(ax, parameter, values, axis_label("exponent"))
     return ax
 
 
@@ -228,20 +184,14 @@ def range_strips(
 ) -> Axes:
     """Ranges of motion as coloured bars, one strip for each source: what is published above what was found.
 
+    One bar for each range; wide ones hold their names.
+
     Parameters
     ----------
     strips : mapping of str to xarray.Dataset or ranges
         The first stands on top. A sweep is drawn as its runs; the article's ranges come from `gearpair.published`.
-    ax : Axes, optional
     parameter : str, optional
         Needed only where no strip is a sweep.
-    legend : bool
-        Name the colours above the axes.
-
-    Returns
-    -------
-    Axes
-        With one bar for each range; wide ones hold their names.
 
     Examples
     --------
@@ -270,10 +220,10 @@ def range_strips(
         room = (high - low) / (right - left) / LETTER - 1.0
         text = next((text for text in (str(motion), str(motion.period or motion)) if len(text) <= room), "")
         ax.text(0.5 * (low + high), row, text, ha="center", va="center", fontsize=8, color="white", weight="bold")
-    ax.set_yticks(range(len(strips)), list(strips))
+    name_rows(ax, strips, parameter or "")
     ax.tick_params(axis="y", length=0)
     ax.spines["left"].set_visible(False)
-    ax.set(xlim=(left, right), ylim=(len(strips) - 0.5, -0.5), xlabel=LABELS.get(parameter or "", parameter))
+    ax.set_xlim(left, right)
     if legend:
         add_motion_legend(ax, [bar[3] for bar in bars])
     return ax
@@ -293,14 +243,8 @@ def range_lanes(
     ----------
     sources : mapping of str to ranges
         The first is drawn pale with a dark rim, the others in full colour.
-    ax : Axes, optional
     parameter : str, optional
         For the label of the axis, where no source is the article.
-
-    Returns
-    -------
-    Axes
-        With one bar for each range.
 
     Examples
     --------
@@ -322,9 +266,8 @@ def range_lanes(
             motions.index(each.motion) + height * (k + 0.5) - 0.42, each.upper - each.lower, left=each.lower,
             height=0.9 * height, color=motion_colour(each.motion), **pale,
         )  # fmt: skip
-    ax.set_yticks(range(len(motions)), list(map(str, motions)))
+    name_rows(ax, motions, parameter or "")
     ax.tick_params(axis="y", length=0)
-    ax.set(ylim=(len(motions) - 0.5, -0.5), xlabel=LABELS.get(parameter or "", parameter))
     ax.set_xlim(min(each.lower for _, each in rows), max(each.upper for _, each in rows))
     for edge in range(1, len(motions)):
         ax.axhline(edge - 0.5, color=BOUNDARY, linewidth=0.3)
@@ -337,18 +280,7 @@ def range_lanes(
 def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """The share of the starts that reaches each kind of motion, stacked over the parameter.
 
-    Parameters
-    ----------
-    shares : xarray.Dataset
-        Of `gearpair.ensembles.motion_shares`.
-    ax : Axes, optional
-    legend : bool
-        Name the colours above the axes.
-
-    Returns
-    -------
-    Axes
-        With one filled band, labelled with its name, for each motion.
+    One filled band, labelled with its name, for each motion.
 
     Examples
     --------
@@ -363,7 +295,51 @@ def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
     bands = shares.share.values.T
     colours = [motion_colour(motion) for motion in motions]
     ax.stackplot(values, bands, labels=list(map(str, motions)), colors=colours, linewidth=0.4, edgecolor="white")
-    ax.set(xlabel=LABELS[parameter], ylabel="share of the starts", xlim=(values.min(), values.max()), ylim=(0, 1))
+    over_parameter(ax, parameter, values, axis_label("share"), ylim=(0, 1))
     if legend:
         add_motion_legend(ax, motions)
+    return ax
+
+
+def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """The shares of the attractors along a parameter, stacked, with a triangle at each tipping point.
+
+    One filled step for each attractor, cut where its kind of motion changes and coloured by it, and a triangle at
+    the top where one has tipped to another.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = attractor_shares(gp.ensembles.continue_attractors(gp.Oscillator(), "damping_ratio", [0.15, 0.16], n=50))
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['period 1']
+    """
+    ax = new_axes(ax, 3.6)
+    parameter = str(result.share.dims[0])
+    values = result[parameter].values
+    between = 0.5 * (values[1:] + values[:-1])
+    edges = np.concatenate([values[:1], between, values[-1:]])
+    below = np.zeros(len(values))
+    present = set()
+    for number in range(result.sizes["attractor"]):
+        own = result.isel(attractor=number)
+        above = below + np.nan_to_num(own.share.values)
+        columns = own.attractor_status.values, own.attractor_period.values, above > below
+        kinds = [Motion(str(a), int(p) or None) if seen else None for a, p, seen in zip(*columns, strict=True)]
+        for kind, group in groupby(range(len(values)), kinds.__getitem__):
+            if kind is None:
+                continue
+            run = list(group)
+            steps = np.repeat(edges[run[0] : run[-1] + 2], 2)[1:-1]
+            ax.fill_between(
+                steps, np.repeat(below[run], 2), np.repeat(above[run], 2), facecolor=motion_colour(kind),
+                edgecolor="white", linewidth=0.4, label=str(kind),
+            )  # fmt: skip
+            present.add(kind)
+        below = above
+    for i in np.flatnonzero(np.any(result.tips_to.values != -1, axis=1)):
+        ax.plot(between[i - 1], 1.0, marker="v", markersize=4, color="black", clip_on=False, label="tipping point")
+    over_parameter(ax, parameter, values, axis_label("share"), ylim=(0.0, 1.0))
+    if legend:
+        add_motion_legend(ax, present)
     return ax

@@ -1,46 +1,178 @@
-"""Maps over two parameters by impact and by measure, and the shares of the attractors along one."""
+"""Maps over two parameters, and over the plane of starts (X0, X0')."""
 
 from __future__ import annotations
 
-from itertools import groupby
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm, Normalize, to_rgb
+from matplotlib.collections import QuadMesh
+from matplotlib.colors import ListedColormap, LogNorm, Normalize, to_rgb
+from matplotlib.legend import Legend
+from matplotlib.patches import Patch
 
-from gearpair.motion.names import IMPACT_NAMES, Motion
-from gearpair.plotting.planes import IMPACT_COLOURS, name_colours
-from gearpair.plotting.style import LABELS, add_motion_legend, motion_colour, new_axes
+from gearpair.ensembles.planes import attractor_motions
+from gearpair.motion.impacts import ImpactState
+from gearpair.motion.names import IMPACT_NAMES, Motion, motions_of
+from gearpair.motion.steady import SteadyState
+from gearpair.plotting.style import add_motion_legend, motion_colour, new_axes, shade_backlash
+from gearpair.quantities import axis_label
 
-QUANTITIES = {
-    "load_factor": "dynamic load factor",
-    "drive_velocity": "largest approach speed, drive side",
-    "coast_velocity": "largest approach speed, coast side",
-    "x_rms": "rms of $X$ about its mean",
-    "peak_to_peak": "peak-to-peak value of $X$",
-    "exponent": r"largest exponent $\lambda_1$",
-    "settling_time": "settling time (mesh periods)",
-    "largest_displacement": r"largest $|X|$",
+Colour = tuple[float, float, float]
+MOST_NAMED = 8  # attractors that a legend names one by one
+
+# The harsher the darker.
+IMPACT_COLOURS: Mapping[str, str] = {
+    ImpactState.NEVER_IN_CONTACT: "#FFFFFF",
+    ImpactState.NONE_DRIVE: "#F2F0F7",
+    ImpactState.NONE_COAST: "#DADAEB",
+    ImpactState.SINGLE_DRIVE: "#BCBDDC",
+    ImpactState.SINGLE_COAST: "#9E9AC8",
+    ImpactState.DOUBLE: "#54278F",
+    "": "#FFFFFF",
 }
+
+
+def attractor_colours(result: xr.Dataset) -> list[Colour]:
+    """One colour for each attractor of `gearpair.basins`: its motion's, paler for the second of a kind and so on."""
+    colours, seen = [], Counter[Motion]()
+    for motion in attractor_motions(result):
+        shade = 0.6 ** seen[motion.kind]
+        seen[motion.kind] += 1
+        red, green, blue = (1.0 - shade * (1.0 - part) for part in to_rgb(motion_colour(motion)))
+        colours.append((red, green, blue))
+    return colours
+
+
+def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """Which attractor each start reaches, a second motion of a kind paler; starts that do not stay bounded are white.
+
+    Parameters
+    ----------
+    legend : bool
+        Name the attractors above the axes; where they are many, their colours.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = basins(gp.basins(gp.Oscillator(), [-2.0, 1.0], [0.0, 0.5]))
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['period 1, double-sided', 'period 2, single-sided']
+    """
+    ax = new_axes(ax, 5.0)
+    motions, colours = attractor_motions(result), attractor_colours(result)
+    _map(ax, result, result.attractor.values + 1, [(1.0, 1.0, 1.0), *colours])
+    if legend and len(motions) > MOST_NAMED:
+        add_motion_legend(ax, motions)
+    elif legend:
+        strongest: dict[str, Colour] = {}
+        for motion, colour in zip(motions, colours, strict=True):
+            strongest.setdefault(str(motion), colour)
+        name_colours(ax, strongest)
+    return ax
+
+
+def impact_states(result: xr.Dataset, ax: Axes | None = None, *, worst: bool = False, legend: bool = True) -> Axes:
+    """In which impact state each start ends, the harsher the darker.
+
+    Parameters
+    ----------
+    worst : bool
+        The worst state of the whole way instead, from the start on.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = impact_states(gp.basins(gp.Oscillator(), [-2.0, 1.0], [0.0, 0.5]))
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['single-sided', 'double-sided']
+    """
+    ax = new_axes(ax, 5.0)
+    states = (result.worst_impact_state if worst else result.impact_state).values
+    numbers = np.zeros(states.shape, int)
+    for i, state in enumerate(IMPACT_COLOURS):
+        numbers[states == state] = i
+    _map(ax, result, numbers, [to_rgb(colour) for colour in IMPACT_COLOURS.values()])
+    if legend:
+        name_colours(ax, impact_colours(states))
+    return ax
+
+
+def _map(ax: Axes, result: xr.Dataset, numbers: np.ndarray, colours: Sequence[Colour]) -> None:
+    _plane(ax, result, numbers, cmap=ListedColormap(list(colours)), vmin=-0.5, vmax=len(colours) - 0.5)
+
+
+def _plane(ax: Axes, result: xr.Dataset, values: np.ndarray, **colours: Any) -> QuadMesh:
+    ax.set(xlabel=axis_label("start_x"), ylabel=axis_label("start_v"))
+    return ax.pcolormesh(result.x.values, result.v.values, values, shading="nearest", rasterized=True, **colours)
+
+
+def impact_colours(states: np.ndarray) -> dict[str, Colour]:
+    """The colours of the impact states that are present, by their names in words."""
+    present = set(states.ravel())
+    return {IMPACT_NAMES[state]: to_rgb(colour) for state, colour in IMPACT_COLOURS.items() if state in present}
+
+
+def name_colours(ax: Axes, colours: Mapping[str, Colour], **place: Any) -> Legend:
+    """A legend of coloured patches, above the axes or where `place` says."""
+    handles = [Patch(facecolor=each, edgecolor="#999999", linewidth=0.5, label=name) for name, each in colours.items()]
+    place = place or {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.3}
+    return ax.legend(handles=handles, **place)
+
+
+def attractor_points(states: Sequence[SteadyState], ax: Axes) -> Axes:
+    """The section points of periodic attractors, as white-rimmed dots over a map of their basins.
+
+    One line of dots for each periodic state.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> osc = gp.Oscillator()
+    >>> ax = attractor_points([gp.steady_state(osc)], basins(gp.basins(osc, [-2.0, 1.0], [0.0, 0.5])))
+    >>> ax.lines[0].get_label(), len(ax.lines[0].get_xdata())
+    ('period 2', 2)
+    """
+    for state in states:
+        if state.period:
+            ax.plot(
+                *state.points.T, "o", markersize=5.5, markerfacecolor=motion_colour(state.motion),
+                markeredgecolor="white", markeredgewidth=1.0, label=str(state.motion.kind),
+            )  # fmt: skip
+    return ax
+
+
+def finite_exponents(result: xr.Dataset, ax: Axes | None = None, *, largest: float | None = None) -> Axes:
+    """The largest Lyapunov exponent from each start: dark where neighbours part, pale where they stay together.
+
+    A colour bar beside it.
+
+    Parameters
+    ----------
+    largest : float, optional
+        Where the colours end.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = finite_exponents(gp.basins(gp.Oscillator(), [-2.0, 1.0], [0.0, 0.5]))
+    >>> ax.get_xlabel(), len(ax.figure.axes)  # the other one is the colour bar's
+    ('initial displacement $X_0$', 2)
+    """
+    ax = new_axes(ax, 5.0)
+    shown = _plane(ax, result, result.exponent.values, cmap="cividis", vmin=0.0, vmax=largest)
+    shade_backlash(ax, horizontal=False)
+    ax.figure.colorbar(shown, ax=ax, label=axis_label("exponent"), pad=0.01)
+    return ax
 
 
 def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """The impact state at each point of a grid of two parameters, the harsher the darker.
 
-    Parameters
-    ----------
-    result : xarray.Dataset
-        Of `gearpair.parameter_map` with two axes, evenly spaced: the first is drawn upwards, the second to the right.
-    ax : Axes, optional
-    legend : bool
-        Name the states above the axes.
-
-    Returns
-    -------
-    Axes
-        With one image whose pixels are the grid's points.
+    One image whose pixels are the grid's points.
 
     Examples
     --------
@@ -50,14 +182,39 @@ def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     ['no impact', 'single-sided']
     """
     states = result.impact_state.values
-    present = [state for state in IMPACT_COLOURS if np.any(states == state)]
-    colours = {state: to_rgb(IMPACT_COLOURS[state]) for state in present}
-    pixels = np.zeros((*states.shape, 3))
-    for state, colour in colours.items():
-        pixels[states == state] = colour
-    ax = _image(result, pixels, ax)
+    ax = _image(result, _pixels(states, IMPACT_COLOURS), ax)
     if legend:
-        name_colours(ax, {IMPACT_NAMES[state]: colour for state, colour in colours.items()})
+        name_colours(ax, impact_colours(states))
+    return ax
+
+
+def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """The motion at each point of a grid of two parameters, in the colours of all figures.
+
+    One image whose pixels are the grid's points.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        Of `gearpair.parameter_map` with two axes, evenly spaced: the first is drawn upwards, the second to the right.
+
+    Raises
+    ------
+    ValueError
+        For a map with another number of axes.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> grid = gp.parameter_map(gp.Oscillator(), {"damping_ratio": [0.05, 0.1], "mesh_frequency": [0.6, 0.7, 0.8]})
+    >>> period_map(grid).images[0].get_size()
+    (2, 3)
+    """
+    motions = motions_of(result)
+    present = set(motions.ravel())
+    ax = _image(result, _pixels(motions, {motion: motion_colour(motion) for motion in present}), ax)
+    if legend:
+        add_motion_legend(ax, present)
     return ax
 
 
@@ -71,22 +228,18 @@ def quantity_map(
 ) -> Axes:
     """A quantity of the motion at each point of a grid of two parameters: dark where it is small.
 
+    A colour bar beside it.
+
     Parameters
     ----------
     result : xarray.Dataset
         Of `gearpair.parameter_map` with two axes (or of `gearpair.basins`), evenly spaced.
     quantity : str
         One of its variables.
-    ax : Axes, optional
     largest : float, optional
         Where the colours end; the largest value when not given.
     logarithmic : bool
         Spread the colours over the logarithm.
-
-    Returns
-    -------
-    Axes
-        With a colour bar beside it.
 
     Examples
     --------
@@ -101,8 +254,15 @@ def quantity_map(
     low = float(np.nanmin(values[values > 0.0])) if logarithmic else float(np.nanmin(values))
     ax = _image(result, values, ax, norm=(LogNorm if logarithmic else Normalize)(low, top), cmap="cividis")
     beyond = "max" if np.nanmax(values) > top else "neither"
-    ax.figure.colorbar(ax.images[0], ax=ax, label=QUANTITIES.get(quantity, quantity), pad=0.01, extend=beyond)
+    ax.figure.colorbar(ax.images[0], ax=ax, label=axis_label(quantity), pad=0.01, extend=beyond)
     return ax
+
+
+def _pixels(values: np.ndarray, colours: Mapping[Any, str]) -> np.ndarray:
+    pixels = np.zeros((*values.shape, 3))
+    for value, colour in colours.items():
+        pixels[values == value] = to_rgb(colour)
+    return pixels
 
 
 def _image(result: xr.Dataset, pixels: np.ndarray, ax: Axes | None, **colours: Any) -> Axes:
@@ -112,12 +272,10 @@ def _image(result: xr.Dataset, pixels: np.ndarray, ax: Axes | None, **colours: A
     ax = new_axes(ax, 4.6)
     vertical, horizontal = dims
     (left, right), (low, high) = (_ends(result[name].values) for name in (horizontal, vertical))
-    ax.imshow(
-        pixels, origin="lower", extent=(left, right, low, high), aspect="auto", interpolation="nearest", **colours
-    )  # fmt: skip
-    starts = {"x": "initial displacement $X_0$", "v": "initial velocity $X_0'$"}
-    names = LABELS | starts if dims == ["v", "x"] else LABELS
-    ax.set(xlabel=names[horizontal], ylabel=names[vertical])
+    extent = (left, right, low, high)
+    ax.imshow(pixels, origin="lower", extent=extent, aspect="auto", interpolation="nearest", **colours)
+    names = ("start_v", "start_x") if dims == ["v", "x"] else dims
+    ax.set(xlabel=axis_label(names[1]), ylabel=axis_label(names[0]))
     return ax
 
 
@@ -125,58 +283,3 @@ def _ends(values: np.ndarray) -> tuple[float, float]:
     """Half a step beyond the first and the last of evenly spaced values."""
     half = 0.5 * (values[-1] - values[0]) / max(len(values) - 1, 1)
     return values[0] - half, values[-1] + half
-
-
-def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
-    """The shares of the attractors along a parameter, stacked, with a triangle at each tipping point.
-
-    Parameters
-    ----------
-    result : xarray.Dataset
-        Of `gearpair.ensembles.continue_attractors`.
-    ax : Axes, optional
-    legend : bool
-        Name the kinds of motion above the axes.
-
-    Returns
-    -------
-    Axes
-        With one filled step for each attractor, cut where its kind of motion changes and coloured by it, and a triangle
-        at the top where one has tipped to another.
-
-    Examples
-    --------
-    >>> import gearpair as gp
-    >>> ax = attractor_shares(gp.ensembles.continue_attractors(gp.Oscillator(), "damping_ratio", [0.15, 0.16], n=50))
-    >>> [text.get_text() for text in ax.get_legend().get_texts()]
-    ['period 1']
-    """
-    ax = new_axes(ax, 3.6)
-    parameter = str(result.share.dims[0])
-    values = result[parameter].values
-    between = 0.5 * (values[1:] + values[:-1])
-    edges = np.concatenate([values[:1], between, values[-1:]])
-    below = np.zeros(len(values))
-    present = set()
-    for number in range(result.sizes["attractor"]):
-        own = result.isel(attractor=number)
-        above = below + np.nan_to_num(own.share.values)
-        columns = own.attractor_status.values, own.attractor_period.values, above > below
-        kinds = [Motion(str(a), int(p) or None) if seen else None for a, p, seen in zip(*columns, strict=True)]
-        for kind, group in groupby(range(len(values)), kinds.__getitem__):
-            if kind is None:
-                continue
-            run = list(group)
-            steps = np.repeat(edges[run[0] : run[-1] + 2], 2)[1:-1]
-            ax.fill_between(
-                steps, np.repeat(below[run], 2), np.repeat(above[run], 2), facecolor=motion_colour(kind),
-                edgecolor="white", linewidth=0.4, label=str(kind),
-            )  # fmt: skip
-            present.add(kind)
-        below = above
-    for i in np.flatnonzero(np.any(result.tips_to.values != -1, axis=1)):
-        ax.plot(between[i - 1], 1.0, marker="v", markersize=4, color="black", clip_on=False, label="tipping point")
-    ax.set(xlabel=LABELS[parameter], ylabel="share of the starts", xlim=(values.min(), values.max()), ylim=(0.0, 1.0))
-    if legend:
-        add_motion_legend(ax, present)
-    return ax

@@ -1,8 +1,12 @@
-"""The method: what accuracy costs, how a step is certified, and what an integrator draws."""
+"""The method: what accuracy costs, how a step is certified, and what an integrator draws.
+
+A segment that was not met, None, gives an Axes that says so.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -11,7 +15,8 @@ from matplotlib.axes import Axes
 from gearpair.ensembles.ranges import swept_parameter
 from gearpair.methods.certificates import Segment
 from gearpair.methods.precision import EXACT, Precision, numerical_chaos
-from gearpair.plotting.style import BOUNDARY, INK, LABELS, new_axes
+from gearpair.plotting.style import BOUNDARY, INK, new_axes, note, over_parameter
+from gearpair.quantities import axis_label
 
 METHOD_LOOKS = {
     "RK45": ("#E69F00", "o"),
@@ -23,21 +28,16 @@ METHOD_LOOKS = {
 FALSE_CHAOS, FAINT = "#C8102E", "#9A9A9A"
 CUBIC, STEP = "#E69F00", "#D55E00"
 T = "$t$ (widths of the cell)"
+BESIDE: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "color": BOUNDARY, "fontsize": 8}  # a line's name
 
 
 def work_precision(measured: Sequence[Precision], ax: Axes | None = None) -> Axes:
-    """Time per mesh period against the one-period error, a line for each method.
+    """Time per mesh period against the one-period error, both logarithmic, a line for each method.
 
     Parameters
     ----------
     measured : sequence of Precision
-        Of `gearpair.work_precision`.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-        Logarithmic, with one line for each method.
+        Of `gearpair.methods.work_precision`.
 
     Examples
     --------
@@ -51,10 +51,8 @@ def work_precision(measured: Sequence[Precision], ax: Axes | None = None) -> Axe
         runs = [m for m in measured if m.method == method]
         colour, marker = METHOD_LOOKS.get(method, (FAINT, "x"))
         error = [max(m.error, 2.0**-53) for m in runs]
-        ax.plot(
-            error, [m.seconds for m in runs], color=colour, marker=marker, label=method,
-            markersize=13 if method == EXACT else 5,
-        )  # fmt: skip
+        size = 13 if method == EXACT else 5
+        ax.plot(error, [m.seconds for m in runs], color=colour, marker=marker, label=method, markersize=size)
     ax.set(xscale="log", yscale="log", xlabel="largest error after one mesh period", ylabel="seconds per mesh period")
     ax.invert_xaxis()
     ax.grid(linewidth=0.4, color="#DDDDDD")
@@ -67,22 +65,14 @@ def drawn_diagram(
 ) -> Axes:  # fmt: skip
     """A diagram as an integrator draws it, its numerical chaos in red.
 
+    Two lines of dots: what may be believed, then what the integrator made up.
+
     Parameters
     ----------
     exact : xarray.Dataset
         Of `gearpair.sweep`: what is true.
     drawn : xarray.Dataset
-        Of `gearpair.runge_kutta_sweep` at the same values.
-    ax : Axes, optional
-    title : str
-        Stands inside the axes, top left.
-    legend : bool
-        Name the colours above the axes.
-
-    Returns
-    -------
-    Axes
-        With two lines of dots: what may be believed, then what the integrator made up.
+        Of `gearpair.methods.runge_kutta_sweep` at the same values.
 
     Examples
     --------
@@ -96,39 +86,26 @@ def drawn_diagram(
     ax = new_axes(ax)
     parameter = swept_parameter(exact)
     false = numerical_chaos(exact, drawn)
-    for chosen, colour, size, label in (
-        (~false, INK, 1.7, "periodic, or chaos in truth too"),
-        (false, FALSE_CHAOS, 1.7, "numerical chaos"),
+    values = drawn[parameter].values
+    for chosen, colour, label in (
+        (~false, INK, "periodic, or chaos in truth too"),
+        (false, FALSE_CHAOS, "numerical chaos"),
     ):
         x = drawn.x.values[chosen]
-        ax.plot(
-            np.repeat(drawn[parameter].values[chosen], x.shape[1]), x.ravel(), linestyle="", marker=".",
-            markeredgewidth=0, markersize=size, color=colour, label=label, rasterized=True,
-        )  # fmt: skip
-    values = drawn[parameter].values
-    ax.set(xlabel=LABELS[parameter], ylabel=LABELS["section"], xlim=(values.min(), values.max()))
-    ax.annotate(
-        title, (0.0, 1.0), xytext=(6, -4), xycoords="axes fraction", textcoords="offset points", va="top",
-        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 1.5},
-    )  # fmt: skip
+        looks: dict[str, Any] = {"markeredgewidth": 0, "markersize": 1.7, "color": colour, "rasterized": True}
+        ax.plot(np.repeat(values[chosen], x.shape[1]), x.ravel(), ".", label=label, **looks)
+    over_parameter(ax, parameter, values, axis_label("section"))
+    paper = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 1.5}
+    note(ax, title, (0.0, 1.0), (6, -4), xycoords="axes fraction", va="top", bbox=paper)
     if legend:
         ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, markerscale=5.0, borderaxespad=0.2)
     return ax
 
 
 def certificate(segment: Segment | None, ax: Axes | None = None, *, legend: bool = True) -> Axes:
-    """A segment with its Bézier points, their hull and the boundaries in sight.
+    """A segment with its Bézier points, their hull and the boundaries in sight; that none was met, for None.
 
-    Parameters
-    ----------
-    segment : Segment or None
-    ax : Axes, optional
-    legend : bool
-
-    Returns
-    -------
-    Axes
-        With lines labelled ``"motion"`` and ``"Bézier points"``, and ``"crossing"`` where there is one.
+    Lines labelled ``"motion"`` and ``"Bézier points"``, and ``"crossing"`` where there is one.
 
     Examples
     --------
@@ -147,12 +124,9 @@ def certificate(segment: Segment | None, ax: Axes | None = None, *, legend: bool
     ax.plot(*points.T, color=CUBIC, linestyle="--", marker="s", markersize=5, linewidth=1.0, label="Bézier points")
     ax.plot(t, segment(t), color=INK, linewidth=1.8, label="motion")
     if segment.crossing is not None:
-        ax.plot(
-            segment.crossing, segment(segment.crossing), color=STEP, marker="o", markersize=7, linestyle="",
-            label="crossing",
-        )  # fmt: skip
+        ax.plot(segment.crossing, segment(segment.crossing), "o", color=STEP, markersize=7, label="crossing")
     _show_boundaries(segment, ax, low, high)
-    ax.set(xlabel=T, ylabel=LABELS["x"], xlim=(0.0, segment.span))
+    ax.set(xlabel=T, ylabel=axis_label("x"), xlim=(0.0, segment.span))
     if legend:
         ax.legend()
     return ax
@@ -171,25 +145,12 @@ def _show_boundaries(segment: Segment, ax: Axes, low: float, high: float) -> Non
     near = [b for b in segment.boundaries if low - 2.0 * room <= b <= high + 2.0 * room]
     for boundary in near:
         ax.axhline(boundary, color=BOUNDARY, linewidth=1.4)
-        ax.annotate(
-            f"$X = {boundary:g}$", (1.0, boundary), xycoords=("axes fraction", "data"), xytext=(-3, 3),
-            textcoords="offset points", ha="right", color=BOUNDARY, fontsize=8,
-        )  # fmt: skip
+        note(ax, f"$X = {boundary:g}$", (1.0, boundary), (-3, 3), ha="right", **BESIDE)
     ax.set_ylim(min([low, *near]) - room, max([high, *near]) + room)
 
 
 def interpolation_error(segment: Segment | None, ax: Axes | None = None) -> Axes:
     """The motion less its cubic Hermite interpolant, between the bounds.
-
-    Parameters
-    ----------
-    segment : Segment or None
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-        With one line labelled ``"motion - cubic"``.
 
     Examples
     --------
@@ -217,16 +178,7 @@ def interpolation_error(segment: Segment | None, ax: Axes | None = None) -> Axes
 def certified_steps(segment: Segment | None, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """The distance to the boundary that limits the steps, and the parabola under it that certifies each step.
 
-    Parameters
-    ----------
-    segment : Segment or None
-    ax : Axes, optional
-    legend : bool
-
-    Returns
-    -------
-    Axes
-        With a line labelled ``"distance"``, one line for each parabola, and a dot where each step starts.
+    A line labelled ``"distance"``, one line for each parabola, and a dot where each step starts.
 
     Examples
     --------
@@ -247,14 +199,10 @@ def certified_steps(segment: Segment | None, ax: Axes | None = None, *, legend: 
     ax.axhline(0.0, color=BOUNDARY, linewidth=1.4)
     for i, step in enumerate(shown):
         h = np.linspace(0.0, step.length, 101)
-        ax.plot(
-            step.t + h, step.d + step.u * h + 0.5 * step.m * h * h, color=STEP, linewidth=1.2, linestyle="--",
-            label="lower bound" if i == 0 else None,
-        )  # fmt: skip
-        ax.plot(
-            step.t, step.d, color=STEP, marker="o", markersize=4.5, linestyle="",
-            label="start of a step" if i == 0 else None,
-        )  # fmt: skip
+        labels = ("lower bound", "start of a step") if i == 0 else (None, None)
+        bound = step.d + step.u * h + 0.5 * step.m * h * h
+        ax.plot(step.t + h, bound, "--", color=STEP, linewidth=1.2, label=labels[0])
+        ax.plot(step.t, step.d, "o", color=STEP, markersize=4.5, label=labels[1])
     ax.plot(t, distance, color=INK, linewidth=1.8, label="distance", zorder=1.5)
     top = max(step.d for step in shown) if segment.crossing is not None else distance.max()
     ax.set(xlabel=T, ylabel=f"distance to $X = {boundary:g}$", xlim=(0.0, segment.span), ylim=(-0.25 * top, 1.6 * top))
@@ -264,18 +212,7 @@ def certified_steps(segment: Segment | None, ax: Axes | None = None, *, legend: 
 
 
 def step_convergence(segment: Segment | None, ax: Axes | None = None) -> Axes:
-    """The distance left at each certified step towards a crossing.
-
-    Parameters
-    ----------
-    segment : Segment or None
-        With a crossing.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-        Logarithmic, with one line labelled ``"distance"``.
+    """The distance left, on a logarithmic scale, at each certified step of a segment with a crossing.
 
     Examples
     --------
@@ -289,12 +226,9 @@ def step_convergence(segment: Segment | None, ax: Axes | None = None) -> Axes:
     if segment is None:
         return _none_met(ax)
     steps, _crossing = segment.certified_steps()
-    ax.plot(
-        range(len(steps)), [max(step.d, 2.0**-53) for step in steps], color=INK, marker="o", markersize=5,
-        label="distance",
-    )  # fmt: skip
+    distances = [max(step.d, 2.0**-53) for step in steps]
+    ax.plot(range(len(steps)), distances, color=INK, marker="o", markersize=5, label="distance")
     ax.axhline(2.0**-52, color=BOUNDARY, linewidth=0.9, linestyle=":")
-    ax.annotate("rounding", (0.02, 2.0**-52), xycoords=("axes fraction", "data"), xytext=(0, 3),
-                textcoords="offset points", color=BOUNDARY, fontsize=8)  # fmt: skip
+    note(ax, "rounding", (0.02, 2.0**-52), (0, 3), **BESIDE)
     ax.set(xlabel="step", ylabel="distance at its start", yscale="log", xticks=range(len(steps)), ylim=(1e-17, None))
     return ax

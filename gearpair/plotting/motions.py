@@ -14,8 +14,8 @@ from gearpair.motion.spectra import Spectrum
 from gearpair.motion.spectra import spectrum as spectrum_of
 from gearpair.motion.steady import SteadyState
 from gearpair.motion.trajectories import Trajectory, trajectory
-from gearpair.plotting.diagrams import shade_backlash
-from gearpair.plotting.style import BOUNDARY, INK, LABELS, STYLE, motion_colour, new_axes
+from gearpair.plotting.style import BOUNDARY, INK, STYLE, motion_colour, new_axes, shade_backlash
+from gearpair.quantities import QUANTITIES, axis_label
 
 SHOWN_PERIODS = 8  # mesh periods of a time history
 SPECTRUM_PERIODS = 240  # at least so many mesh periods under a spectrum
@@ -31,17 +31,10 @@ def time_history(
 
     Parameters
     ----------
-    motion : Trajectory
-    ax : Axes, optional
     n_periods : int, optional
         Mesh periods shown, from the first; all without it.
-    colour : str
     impacts : bool
         Mark where teeth come into contact.
-
-    Returns
-    -------
-    Axes
 
     Examples
     --------
@@ -51,21 +44,25 @@ def time_history(
     ('displacement $X$', [0.0, 2.0])
     """
     ax = new_axes(ax)
-    last = motion.samples_per_period * n_periods + 1 if n_periods else len(motion.tau)
-    tau, x = motion.tau[:last] / motion.oscillator.period, motion.x[:last]
+    last, made = _first_periods(motion, n_periods)
+    tau = motion.tau[:last] / motion.oscillator.period
     shade_backlash(ax, horizontal=True)
-    ax.plot(tau, x, color=colour)
+    ax.plot(tau, motion.x[:last], color=colour)
     if impacts:
-        made = motion.impacts.contact & (motion.impacts.tau <= motion.tau[:last][-1])
-        when = motion.impacts.tau[made] / motion.oscillator.period
-        _contact_dots(ax, when, motion.impacts.side[made].astype(float), colour)
-    ax.set(xlabel=LABELS["tau"], ylabel=LABELS["x"], xlim=(0.0, tau[-1]))
+        _contact_dots(ax, motion.impacts.tau[made] / motion.oscillator.period, motion.impacts.side[made], colour)
+    ax.set(xlabel=axis_label("tau"), ylabel=axis_label("x"), xlim=(0.0, tau[-1]))
     return ax
+
+
+def _first_periods(motion: Trajectory, n_periods: int | None) -> tuple[int, np.ndarray]:
+    """How many samples the first periods are, and which impacts of theirs make contact."""
+    last = motion.samples_per_period * n_periods + 1 if n_periods else len(motion.tau)
+    return last, motion.impacts.contact & (motion.impacts.tau <= motion.tau[:last][-1])
 
 
 def _contact_dots(ax: Axes, across: np.ndarray, up: np.ndarray, colour: str) -> None:
     ax.plot(
-        across, up, linestyle="", marker="o", markersize=3.2, markerfacecolor="white", markeredgecolor=colour,
+        across.astype(float), up.astype(float), "o", markersize=3.2, markerfacecolor="white", markeredgecolor=colour,
         markeredgewidth=0.9, label="contact made",
     )  # fmt: skip
 
@@ -77,17 +74,8 @@ def phase_portrait(
 
     Parameters
     ----------
-    motion : Trajectory
-    ax : Axes, optional
-    n_periods : int, optional
-        Mesh periods shown, from the first; all without it.
-    colour : str
-    impacts : bool
-        Mark where teeth come into contact.
-
-    Returns
-    -------
-    Axes
+    motion, n_periods, impacts
+        As for `time_history`.
 
     Examples
     --------
@@ -97,13 +85,12 @@ def phase_portrait(
     ('displacement $X$', "velocity $X'$")
     """
     ax = new_axes(ax, 5.0)
-    last = motion.samples_per_period * n_periods + 1 if n_periods else len(motion.tau)
+    last, made = _first_periods(motion, n_periods)
     shade_backlash(ax, horizontal=False)
     ax.plot(motion.x[:last], motion.v[:last], color=colour, linewidth=1.2 if last < 2000 else 0.35)
     if impacts:
-        made = motion.impacts.contact & (motion.impacts.tau <= motion.tau[:last][-1])
-        _contact_dots(ax, motion.impacts.side[made].astype(float), motion.impacts.velocity[made], colour)
-    ax.set(xlabel=LABELS["x"], ylabel=LABELS["v"])
+        _contact_dots(ax, motion.impacts.side[made], motion.impacts.velocity[made], colour)
+    ax.set(xlabel=axis_label("x"), ylabel=axis_label("v"))
     return ax
 
 
@@ -114,15 +101,8 @@ def poincare_section(
 
     Parameters
     ----------
-    motion : Trajectory
-    ax : Axes, optional
-    colour : str
     size : float, optional
         Diameter of a dot in points; chosen by the number of points without it.
-
-    Returns
-    -------
-    Axes
 
     Examples
     --------
@@ -134,11 +114,9 @@ def poincare_section(
     ax = new_axes(ax, 5.0)
     x, v = motion.x[:: motion.samples_per_period], motion.v[:: motion.samples_per_period]
     few = len(np.unique(np.round(np.stack([x, v]), 6), axis=1).T) <= 64
-    ax.plot(
-        x, v, linestyle="", marker="o", markeredgewidth=0, color=colour, rasterized=not few,
-        markersize=size or (5.0 if few else 1.0),
-    )  # fmt: skip
-    ax.set(xlabel=LABELS["x"], ylabel=LABELS["v"])
+    size = size or (5.0 if few else 1.0)
+    ax.plot(x, v, "o", markeredgewidth=0, markersize=size, color=colour, rasterized=not few)
+    ax.set(xlabel=axis_label("x"), ylabel=axis_label("v"))
     return ax
 
 
@@ -149,17 +127,10 @@ def spectrum(
 
     Parameters
     ----------
-    lines : Spectrum
-    ax : Axes, optional
     period : int, optional
         In mesh periods, where the motion is periodic: then lines are drawn, otherwise a curve.
     highest : float
         Where the axis ends, in units of the mesh frequency.
-    colour : str
-
-    Returns
-    -------
-    Axes
 
     Examples
     --------
@@ -176,11 +147,11 @@ def spectrum(
     if period:
         real = amplitude > LOWEST_LINE
         ax.vlines(frequency[real], LOWEST_LINE, amplitude[real], color=colour, linewidth=1.2)
-        ax.plot(frequency[real], amplitude[real], linestyle="", marker="o", markersize=2.6, color=colour)
+        ax.plot(frequency[real], amplitude[real], "o", markersize=2.6, color=colour)
     else:
         ax.plot(frequency, amplitude, color=colour, linewidth=0.6)
     ax.set_yscale("log")
-    ax.set(xlabel=LABELS["frequency"], ylabel="amplitude", xlim=(0, highest + 0.1), ylim=(LOWEST_LINE, 10.0))
+    ax.set(xlabel=axis_label("frequency"), ylabel="amplitude", xlim=(0, highest + 0.1), ylim=(LOWEST_LINE, 10.0))
     ax.set_xticks(range(int(highest) + 1))
     return ax
 
@@ -197,11 +168,6 @@ def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: s
     title : str
         Stands above the first.
 
-    Returns
-    -------
-    list of Axes
-        The four, in that order.
-
     Examples
     --------
     >>> import gearpair as gp
@@ -210,10 +176,8 @@ def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: s
     """
     if axes is None:
         with plt.style.context(STYLE):
-            figure = plt.figure(figsize=(8.0, 5.4))
-            axes = list(figure.subplots(2, 2).flat)
-    period = state.period
-    colour = motion_colour(state.motion)
+            axes = list(plt.figure(figsize=(8.0, 5.4)).subplots(2, 2).flat)
+    period, colour = state.period, motion_colour(state.motion)
     n_periods = period * -(-SPECTRUM_PERIODS // period) if period else CHAOS_PERIODS
     x, v = map(float, state.points[0])
     motion = trajectory(state.oscillator, x, v, n_periods)
@@ -237,10 +201,6 @@ def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequen
     parameter : str
         Whose value is told beside the name.
 
-    Returns
-    -------
-    Figure
-
     Raises
     ------
     ValueError
@@ -259,7 +219,7 @@ def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequen
         figure = plt.figure(figsize=(8.6, 0.5 + 1.75 * len(states)))
         grid = figure.subplots(len(states), len(VIEWS), squeeze=False)
         for row, (name, state) in zip(grid, states.items(), strict=True):
-            symbol = LABELS[parameter].split("$")[1]
+            symbol = QUANTITIES[parameter].in_tex
             portrait(state, row, title=f"{name}  (${symbol} = {state.oscillator.parameter(parameter):.4g}$)")
         for ax, view in zip(grid[0][1:], VIEWS[1:], strict=True):
             ax.set_title(view, weight="normal", loc="right")

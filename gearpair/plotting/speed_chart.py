@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -10,9 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
 from gearpair.design import IdleRattle, IsoDynamicFactor
-from gearpair.motion.names import IMPACT_NAMES
-from gearpair.plotting.planes import IMPACT_COLOURS
-from gearpair.plotting.style import INK, new_axes
+from gearpair.design.sensitivities import OUTCOMES
+from gearpair.plotting.maps import IMPACT_COLOURS, impact_colours, name_colours
+from gearpair.plotting.style import INK, new_axes, note, over_parameter
+from gearpair.quantities import axis_label
 
 # Lines need more contrast than areas: contact kept, lost on one side, both flanks struck.
 STATE_INK: Mapping[str, str] = {"none_drive": "#1F3A5F", "single_drive": "#D55E00", "double": "#54278F"}
@@ -28,12 +30,6 @@ CHANGES: Mapping[str, str] = {
     "damping_ratio": "damping ratio",
     "addendum": "addendum (contact ratio)",
 }
-OUTCOMES: Mapping[str, str] = {
-    "dynamic_factor": "largest dynamic factor",
-    "mesh_force": "largest mesh force (N)",
-    "time_apart": "largest share of time apart",
-    "impact_range": "speeds with impacts (rpm)",
-}
 
 
 def dynamic_factors(
@@ -41,20 +37,14 @@ def dynamic_factors(
 ) -> Axes:
     """The dynamic factor over the speed, run up and down, with jumps, impact states, and what is usually taken.
 
+    One line for each run, and strips of the impact states above it.
+
     Parameters
     ----------
-    chart : xarray.Dataset
-        Of `gearpair.design.speed_chart`.
     iso : IsoDynamicFactor, optional
         Drawn in grey beside the linear response.
-    ax : Axes, optional
     jumps : bool
         Mark and name the located jumps.
-
-    Returns
-    -------
-    Axes
-        With one line for each run, and strips of the impact states above it.
 
     Examples
     --------
@@ -78,17 +68,15 @@ def dynamic_factors(
     for run in ("up", "down"):
         shown |= np.isclose(worst, factor.sel(run=run).values, rtol=1e-6, equal_nan=True)
     if not shown.all():
-        ax.plot(
-            speed[~shown], worst[~shown], linestyle="", marker="o", markersize=3, markerfacecolor="none",
-            color=OTHER_INK, label="worst found from other starts",
-        )  # fmt: skip
+        looks: dict[str, Any] = {"markersize": 3, "markerfacecolor": "none", "color": OTHER_INK}
+        ax.plot(speed[~shown], worst[~shown], "o", label="worst found from other starts", **looks)
     for run, style, width in (("up", "-", 1.8), ("down", (0, (2.5, 1.2)), 1.4)):
         values, states = factor.sel(run=run).values, chart.impact_state.sel(run=run).values
         ax.plot([], [], color=INK, linestyle=style, linewidth=width, label=f"run {run}")
         _by_state(ax, speed, values, states, style, width)
     if jumps:
         _mark_jumps(ax, chart)
-    ax.set(xlabel="speed of the pinion (rpm)", ylabel="largest mesh force / mean force", xlim=(speed[0], speed[-1]))
+    over_parameter(ax, "speed", speed, axis_label("dynamic_factor"))
     ax.set_ylim(0.8, 0.8 + (top - 0.8) * 1.35)
     _strips(ax, chart)
     ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.02), ncols=5, handlelength=2.2, borderaxespad=0.0, fontsize=8)
@@ -119,46 +107,29 @@ def _mark_jumps(ax: Axes, chart: xr.Dataset) -> None:
         ends = values[[after - 1, after]] if run == "up" else values[[after, after - 1]]
         if not abs(ends[1] - ends[0]) > LEAP * np.nanmax(values):
             continue
-        ax.annotate(
-            "", (at, ends[1]), (at, ends[0]), arrowprops={"arrowstyle": "-|>", "color": "#333333", "linewidth": 0.9}
-        )
-        side = 1 if run == "up" else -1
-        ax.annotate(
-            f"{at:.0f}", (at, ends.mean()), (4 * side, 0), textcoords="offset points", fontsize=8,
-            ha="left" if side > 0 else "right", va="center", color="#333333",
-        )  # fmt: skip
+        arrow: dict[str, Any] = {"arrowstyle": "-|>", "color": "#333333", "linewidth": 0.9}
+        ax.annotate("", (at, ends[1]), (at, ends[0]), arrowprops=arrow)
+        shift, ha = (4, "left") if run == "up" else (-4, "right")
+        note(ax, f"{at:.0f}", (at, ends.mean()), (shift, 0), fontsize=8, ha=ha, va="center", color="#333333")
 
 
 def _strips(ax: Axes, chart: xr.Dataset) -> None:
     """The impact state of each run as a strip along the top."""
-    edges = _edges(chart.speed.values)
-    present = []
+    speed = chart.speed.values
+    edges = np.concatenate([speed[:1], 0.5 * (speed[1:] + speed[:-1]), speed[-1:]])
     for k, run in enumerate(("up", "down")):
         bottom = 1.0 - (k + 1) * STRIP
         for left, right, state in zip(edges[:-1], edges[1:], chart.impact_state.sel(run=run).values, strict=True):
-            present.append(str(state))
-            ax.axvspan(
-                left, right, bottom, bottom + 0.85 * STRIP, color=IMPACT_COLOURS[str(state)], linewidth=0, zorder=4
-            )
+            colour = IMPACT_COLOURS[str(state)]
+            ax.axvspan(left, right, bottom, bottom + 0.85 * STRIP, color=colour, linewidth=0, zorder=4)
         ax.text(
             0.004, bottom + 0.4 * STRIP, f"run {run}", transform=ax.transAxes, fontsize=7, va="center", color="#333333",
             zorder=5,
         )  # fmt: skip
-    handles = [
-        Patch(facecolor=colour, edgecolor="#999999", linewidth=0.5, label=IMPACT_NAMES[state])
-        for state, colour in IMPACT_COLOURS.items()
-        if state in present
-    ]
-    ax.add_artist(
-        ax.legend(
-            handles=handles, loc="upper right", bbox_to_anchor=(1.0, 1.0 - 2 * STRIP), fontsize=7.5, ncols=len(handles)
-        )
-    )
-
-
-def _edges(speed: np.ndarray) -> np.ndarray:
-    middles = 0.5 * (speed[1:] + speed[:-1])
-    return np.concatenate([[speed[0]], middles, [speed[-1]]])
+    present = impact_colours(chart.impact_state.sel(run=["up", "down"]).values)
+    under = (1.0, 1.0 - 2 * STRIP)
+    key = name_colours(ax, present, loc="upper right", bbox_to_anchor=under, fontsize=7.5, ncols=len(present))
+    ax.add_artist(key)
 
 
 def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]:
@@ -166,13 +137,7 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]
 
     Parameters
     ----------
-    chart : xarray.Dataset
-        Of `gearpair.design.speed_chart`.
     axes : tuple of two Axes
-
-    Returns
-    -------
-    tuple of two Axes
 
     Examples
     --------
@@ -191,11 +156,8 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]
         chosen = chart.sel(run=run)
         left.plot(speed, chosen.dte_rms.values, color=INK, linestyle=style, label=f"run {run}")
         right.plot(speed, chosen.impact_velocity.values, color=INK, linestyle=style, label=f"run {run}")
-    left.set(xlabel="speed of the pinion (rpm)", ylabel="dynamic transmission error, rms (µm)")
-    right.set(xlabel="speed of the pinion (rpm)", ylabel="largest impact velocity (mm/s)")
-    for ax in axes:
-        ax.set_xlim(speed[0], speed[-1])
-        ax.set_ylim(bottom=0.0)
+    for ax, shown in zip(axes, ("dte_rms", "impact_velocity"), strict=True):
+        over_parameter(ax, "speed", speed, axis_label(shown), ylim=(0.0, None))
     left.legend()
     return axes
 
@@ -207,16 +169,9 @@ def tornado(
 
     Parameters
     ----------
-    found : xarray.Dataset
-        Of `gearpair.design.sensitivity`.
     outcome : {"dynamic_factor", "mesh_force", "time_apart", "impact_range"}
-    ax : Axes, optional
     sort_by : str, optional
         The outcome that the bars are sorted by, `outcome` itself when not given.
-
-    Returns
-    -------
-    Axes
 
     Examples
     --------
@@ -231,39 +186,27 @@ def tornado(
     values, base = found[outcome].values, float(found[f"base_{outcome}"])
     sorting = sort_by or outcome
     order = np.argsort(np.abs(found[sorting].values - float(found[f"base_{sorting}"])).max(axis=1).round(9))
-    low_colour, high_colour = "#56B4E9", "#E69F00"
+    ends = {"lower": "#56B4E9", "higher": "#E69F00"}
     for place, k in enumerate(order):
-        for end, colour in ((0, low_colour), (1, high_colour)):
+        for end, colour in enumerate(ends.values()):
             lane = place + (0.5 - end) * LANE  # each end has its own, for both may lie on one side of the base
             ax.barh(lane, values[k, end] - base, left=base, height=LANE, color=colour, zorder=2)
             beyond = values[k, end] - base > -1e-9 * base  # or the same, up to rounding
-            ax.annotate(
-                f"{found.value.values[k, end]:.3g}", (values[k, end], lane), (3 if beyond else -3, 0),
-                textcoords="offset points", fontsize=7, va="center_baseline", ha="left" if beyond else "right",
-            )  # fmt: skip
+            shift, ha = (3, "left") if beyond else (-3, "right")
+            told = f"{found.value.values[k, end]:.3g}"
+            note(ax, told, (values[k, end], lane), (shift, 0), fontsize=7, va="center_baseline", ha=ha)
     ax.axvline(base, color="#333333", linewidth=0.9, zorder=3)
     names = [str(found.change.values[k]) for k in order]
     ax.set_yticks(range(len(names)), [CHANGES.get(name, name) for name in names])
-    ax.set_xlabel(OUTCOMES[outcome])
+    ax.set_xlabel(axis_label(OUTCOMES[outcome]))
     ax.margins(x=0.12)
-    ax.legend(
-        handles=[Patch(color=low_colour, label="lower"), Patch(color=high_colour, label="higher")],
-        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2,
-    )  # fmt: skip
+    handles = [Patch(color=colour, label=name) for name, colour in ends.items()]
+    ax.legend(handles=handles, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
     return ax
 
 
 def rattle(found: IdleRattle, ax: Axes | None = None) -> Axes:
     """Impacts of an idle gear over the speed, and where its inertia torque exceeds the drag.
-
-    Parameters
-    ----------
-    found : IdleRattle
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
 
     Examples
     --------
@@ -276,15 +219,11 @@ def rattle(found: IdleRattle, ax: Axes | None = None) -> Axes:
     """
     ax = new_axes(ax, 2.8)
     ax.plot(found.speed_rpm, found.impact_velocity, color=INK)
-    ax.set(xlabel="speed of the pinion (rpm)", ylabel="largest impact velocity (mm/s)")
-    ax.set_xlim(found.speed_rpm[0], found.speed_rpm[-1])
-    ax.set_ylim(bottom=0.0)
+    over_parameter(ax, "speed", found.speed_rpm, axis_label("impact_velocity"), ylim=(0.0, None))
     quiet = found.rattle_ratio < 1.0
     if quiet.any() and not quiet.all():
         onset = float(np.interp(1.0, found.rattle_ratio, found.speed_rpm))
         ax.axvline(onset, color=GREY, linestyle=(0, (5, 2)), linewidth=1.0)
-        ax.annotate(
-            "inertia torque = drag", (onset, 1.0), (4, -4), xycoords=("data", "axes fraction"),
-            textcoords="offset points", va="top", fontsize=8, color="#555555",
-        )  # fmt: skip
+        looks: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "va": "top", "fontsize": 8, "color": "#555555"}
+        note(ax, "inertia torque = drag", (onset, 1.0), (4, -4), **looks)
     return ax

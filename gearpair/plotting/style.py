@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from types import MappingProxyType
 from typing import Any
 
+import numpy as np
 from cycler import cycler
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
@@ -13,6 +14,7 @@ from matplotlib.lines import Line2D
 
 from gearpair.article.published import CHAOTIC, COMPLEX
 from gearpair.motion.names import CHAOS, Motion
+from gearpair.quantities import axis_label
 
 # For plt.style.use: a figure that fills the book's column, with text of the size of the book's captions.
 STYLE: dict[str, Any] = {
@@ -60,23 +62,6 @@ BACKLASH = "#F1EDE4"  # the strip where the teeth are out of contact
 BOUNDARY = "#8C8577"
 INK = "#1F3A5F"  # curves that have no period to tell
 
-LABELS = {
-    "mean_force": "mean force $F_m'$",
-    "error_amplitude": "transmission error $F_{ah}$",
-    "error_phase": r"phase of the transmission error $\varphi_h$ (rad)",
-    "damping_ratio": r"damping ratio $\zeta$",
-    "mesh_frequency": r"mesh frequency $\Omega_h$",
-    "contact_ratio": r"contact ratio $\varepsilon$",
-    "a": "$a$",
-    "b": "$b$",
-    "x": "displacement $X$",
-    "v": "velocity $X'$",
-    "section": "$X$ on the section",
-    "tau": r"time $\tau / T_h$ (mesh periods)",
-    "frequency": r"frequency / $\Omega_h$",
-    "exponent": r"largest exponent $\lambda_1$",
-}
-
 
 def motion_colour(motion: Motion) -> str:
     """The colour of a motion, whatever its impact state.
@@ -116,6 +101,31 @@ def add_motion_legend(ax: Axes, motions: Iterable[Motion]) -> None:
         handles=dots, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(dots), handletextpad=0.1,
         columnspacing=0.8, borderaxespad=0.2, fontsize=size,
     )  # fmt: skip
+
+
+def shade_backlash(ax: Axes, *, horizontal: bool) -> None:
+    """The strip |X| < 1, where no teeth touch, and its two boundaries."""
+    span, line = (ax.axhspan, ax.axhline) if horizontal else (ax.axvspan, ax.axvline)
+    span(-1.0, 1.0, color=BACKLASH, zorder=-2, linewidth=0)
+    for side in (-1.0, 1.0):
+        line(side, color=BOUNDARY, linewidth=0.7, linestyle=(0, (5, 3)), zorder=-1)
+
+
+def note(ax: Axes, text: str, at: tuple[float, float], shift: tuple[float, float], **look: Any) -> None:
+    """A text that stands `shift` points from `at`."""
+    ax.annotate(text, at, shift, textcoords="offset points", **look)
+
+
+def over_parameter(ax: Axes, parameter: str, values: np.ndarray, ylabel: str, **limits: Any) -> None:
+    """Name the axes of a diagram over a parameter, which reaches from its least value to its greatest."""
+    ax.set(xlabel=axis_label(parameter), ylabel=ylabel, xlim=(values.min(), values.max()), **limits)
+
+
+def name_rows(ax: Axes, names: Iterable[object], parameter: str) -> None:
+    """Name rows of bars along a parameter, the first on top."""
+    texts = list(map(str, names))
+    ax.set_yticks(range(len(texts)), texts)
+    ax.set(xlabel=axis_label(parameter), ylim=(len(texts) - 0.5, -0.5))
 
 
 def new_axes(ax: Axes | None, height: float | None = None) -> Axes:

@@ -10,7 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from gearpair.plotting.style import BOUNDARY, INK, LABELS, new_axes
+from gearpair.plotting.style import BOUNDARY, INK, new_axes, note
+from gearpair.quantities import axis_label
 from gearpair.teeth.finite_elements import MEASURES, FiniteElementBody
 from gearpair.teeth.meshing import MeshStiffness
 from gearpair.teeth.spurpair import SpurGear
@@ -42,6 +43,7 @@ MEASURE_LOOKS: Mapping[str, tuple[str, str]] = {
     "centre": ("v", "down to the centre line"),
 }
 LABEL_STIFFNESS = "stiffness per width (N/mm/µm)"
+SINCE_ENTRY = "mesh periods since the pair entered contact"
 
 
 def per_width(mesh: MeshStiffness) -> float:
@@ -62,17 +64,12 @@ def tooth_outlines(
 ) -> Axes:
     """One tooth with each kind of root, on its root and base circles; lengths in modules.
 
+    One line for each root, labelled in words, and the base circle, root circle and tip circle.
+
     Parameters
     ----------
-    gear : SpurGear
-    ax : Axes, optional
     roots : sequence of str
         As `ToothProfile` knows them; the first is filled.
-
-    Returns
-    -------
-    Axes
-        With one line for each root, labelled in words, and the base circle, root circle and tip circle.
 
     Examples
     --------
@@ -89,15 +86,13 @@ def tooth_outlines(
         radius = radius_mm / gear.module_mm
         ax.plot(radius * np.sin(arc), radius * np.cos(arc), color=BOUNDARY, linewidth=0.6, linestyle=(0, (5, 3)))
         at_end = (radius * math.sin(pitch), radius * math.cos(pitch))
-        ax.annotate(name, at_end, xytext=(3, 0), textcoords="offset points", fontsize=7.5, color=BOUNDARY, va="center")
+        note(ax, name, at_end, (3, 0), fontsize=7.5, color=BOUNDARY, va="center")
     for k, root in enumerate(roots):
         h, y = _outline(ToothProfile(gear, root))
+        style, width = ("--", 1.4) if k else ("-", 2.0)
         if k == 0:
             ax.fill(h, y, color=ROOT_COLOURS[root], alpha=0.10, linewidth=0)
-        ax.plot(
-            h, y, color=ROOT_COLOURS[root], linewidth=2.0 if k == 0 else 1.4, label=ROOT_NAMES[root],
-            linestyle="-" if k == 0 else "--",
-        )  # fmt: skip
+        ax.plot(h, y, style, color=ROOT_COLOURS[root], linewidth=width, label=ROOT_NAMES[root])
     ax.set(xlabel="modules from the centre line", ylabel="modules from the gear's centre", aspect="equal")
     ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=1)
     return ax
@@ -116,17 +111,13 @@ def _outline(tooth: ToothProfile) -> tuple[Array, Array]:
 def compliance_stack(mesh: MeshStiffness, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """What the compliance of one pair of teeth is made of, stacked along its path of contact.
 
+    One filled band for each part; compliance times face width, in micrometres per N/mm.
+
     Parameters
     ----------
     mesh : MeshStiffness
-    ax : Axes, optional
     legend : bool
         Name the parts beside the axes, the uppermost first.
-
-    Returns
-    -------
-    Axes
-        With one filled band for each part; compliance times face width, in micrometres per N/mm.
 
     Examples
     --------
@@ -142,36 +133,24 @@ def compliance_stack(mesh: MeshStiffness, ax: Axes | None = None, *, legend: boo
         mesh.path, bands, labels=[name.replace("_", ", ") for name in parts],
         colors=[PART_COLOURS[name] for name in parts], linewidth=0.4, edgecolor="white",
     )  # fmt: skip
-    _mark_pitch_point(mesh, ax)
-    ax.set(xlabel="mesh periods since the pair entered contact", ylabel="compliance (µm per N/mm)")
-    ax.set(xlim=(0.0, mesh.contact_ratio), ylim=(0.0, None))
+    _along_contact(mesh, ax, "compliance (µm per N/mm)")
     if legend:
         ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), reverse=True)
     return ax
 
 
-def _mark_pitch_point(mesh: MeshStiffness, ax: Axes) -> None:
+def _along_contact(mesh: MeshStiffness, ax: Axes, ylabel: str) -> None:
+    """The axes of what one pair does on its way, from zero, with the pitch point marked."""
     pair = mesh.pair
     on_pinion = pair.pinion.base_radius_mm * math.tan(pair.working_pressure_angle)
     where = (on_pinion - pair.contact_start_mm) / pair.base_pitch_mm
     if 0.0 <= where <= pair.contact_ratio:
         ax.axvline(where, color="#444444", linewidth=0.8, linestyle=":")
+    ax.set(xlabel=SINCE_ENTRY, ylabel=ylabel, xlim=(0.0, mesh.contact_ratio), ylim=(0.0, None))
 
 
 def pair_stiffness(mesh: MeshStiffness, ax: Axes | None = None, *, colour: str = INK, label: str | None = None) -> Axes:
     """Stiffness of one pair of teeth alone along its path of contact.
-
-    Parameters
-    ----------
-    mesh : MeshStiffness
-    ax : Axes, optional
-    colour, label : str
-        Of the curve.
-
-    Returns
-    -------
-    Axes
-        In N per millimetre of face width and micrometre.
 
     Examples
     --------
@@ -182,10 +161,7 @@ def pair_stiffness(mesh: MeshStiffness, ax: Axes | None = None, *, colour: str =
     """
     ax = new_axes(ax, 3.0)
     ax.plot(mesh.path, mesh.pair_stiffness_n_per_m * per_width(mesh), color=colour, label=label)
-    _mark_pitch_point(mesh, ax)
-    ax.set(xlabel="mesh periods since the pair entered contact", ylabel=LABEL_STIFFNESS)
-    ax.set(xlim=(0.0, mesh.contact_ratio))
-    ax.set_ylim(bottom=0.0)
+    _along_contact(mesh, ax, LABEL_STIFFNESS)
     return ax
 
 
@@ -200,10 +176,11 @@ def mesh_curves(
 ) -> Axes:
     """Mesh stiffness over some mesh periods, one curve for each name.
 
+    In N per millimetre of face width and micrometre, from zero.
+
     Parameters
     ----------
     meshes : mapping of str to MeshStiffness
-    ax : Axes, optional
     n_periods : int
     two_levels : bool
         Add the mean over each zone of the period, dashed: the rectangle, where two pairs and one alternate.
@@ -211,11 +188,6 @@ def mesh_curves(
         Taken in turn.
     linestyle : str
         Of all the curves.
-
-    Returns
-    -------
-    Axes
-        In N per millimetre of face width and micrometre, from zero.
 
     Examples
     --------
@@ -231,20 +203,15 @@ def mesh_curves(
         time = np.concatenate([mesh.phase + period for period in range(n_periods)])
         values = np.tile(mesh.stiffness_n_per_m * factor, n_periods)
         jumps = np.flatnonzero(np.diff(np.tile(mesh.pairs_in_contact, n_periods))) + 1
-        ax.plot(
-            np.insert(time, jumps, np.nan), np.insert(values, jumps, np.nan), color=colour, label=name,
-            linestyle=linestyle,
-        )  # fmt: skip
-        ax.vlines(
-            time[jumps], values[jumps - 1], values[jumps], color=colour, linewidth=0.5, linestyle=":"
-        )  # the jumps themselves
+        broken = np.insert(time, jumps, np.nan), np.insert(values, jumps, np.nan)
+        ax.plot(*broken, color=colour, label=name, linestyle=linestyle)
+        ax.vlines(time[jumps], values[jumps - 1], values[jumps], color=colour, linewidth=0.5, linestyle=":")
         if two_levels:
             wave = mesh.wave(len(mesh.zones))
             edges = np.concatenate([np.add(wave.edges, period) for period in range(n_periods)] + [[n_periods]])
             levels = np.tile(wave.levels, n_periods) * mesh.mean * factor
             ax.stairs(levels, edges, baseline=None, color=colour, linestyle="--", linewidth=1.0)
-    ax.set(xlabel=LABELS["tau"], ylabel=LABEL_STIFFNESS, xlim=(0.0, n_periods))
-    ax.set_ylim(bottom=0.0)
+    ax.set(xlabel=axis_label("tau"), ylabel=LABEL_STIFFNESS, xlim=(0.0, n_periods), ylim=(0.0, None))
     if len(meshes) > 1:
         ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=len(meshes))
     return ax
@@ -258,13 +225,8 @@ def load_shares(
     Parameters
     ----------
     meshes : mapping of str to MeshStiffness
-    ax : Axes, optional
     colours : sequence of str
         Taken in turn.
-
-    Returns
-    -------
-    Axes
 
     Examples
     --------
@@ -279,12 +241,14 @@ def load_shares(
         time = np.concatenate([mesh.phase + period for period in range(len(mesh.load_share))])
         share = mesh.load_share.ravel()
         ax.plot(time[share > 0.0], share[share > 0.0], color=colours[k % len(colours)], label=name)
-    ax.set(xlabel="mesh periods since the pair entered contact", ylabel="share of the load", ylim=(0.0, 1.05))
+    ax.set(xlabel=SINCE_ENTRY, ylabel="share of the load", ylim=(0.0, 1.05))
     return ax
 
 
 def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Sequence[Axes]) -> list[Axes]:
     """Compliance of one tooth and its gear body: the fast curve, finite elements, and how far apart they are.
+
+    The first has the curve and one line of points for each measure, the second one line for each measure.
 
     Parameters
     ----------
@@ -293,11 +257,6 @@ def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Seq
         Of the body's pair.
     axes : sequence of two Axes
         For the compliance, times E and face width, and for the deviation of the curve in percent.
-
-    Returns
-    -------
-    list of Axes
-        The first has the curve and one line of points for each measure, the second one line for each measure.
 
     Examples
     --------
@@ -315,18 +274,13 @@ def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Seq
     lower.axhline(0.0, color=BOUNDARY, linewidth=0.7)
     for name, colour in zip(MEASURES, ("#D55E00", "#009E73", "#8A6D3B"), strict=True):
         marker, words = MEASURE_LOOKS[name]
-        look: dict[str, Any] = {
-            "marker": marker,
-            "markersize": 4.5,
-            "color": colour,
-            "markerfacecolor": "white",
-            "label": words,
-        }
+        look: dict[str, Any] = {"marker": marker, "markersize": 4.5, "color": colour, "label": words}
+        look["markerfacecolor"] = "white"
         upper.plot(body.positions, body.compliance[name], linestyle="", **look)
         deviation = np.interp(body.positions, mesh.path, fast) / body.compliance[name] - 1.0
         lower.plot(body.positions, 100.0 * deviation, linewidth=0.8, **look)
-    upper.set(ylabel=r"compliance $\times\, E b$", xlim=(-0.03, mesh.contact_ratio + 0.03), ylim=(0.0, None))
-    lower.set(xlabel="mesh periods since the pair entered contact", ylabel="deviation (%)")
-    lower.set(xlim=(-0.03, mesh.contact_ratio + 0.03))
+    reach = (-0.03, mesh.contact_ratio + 0.03)
+    upper.set(ylabel=r"compliance $\times\, E b$", xlim=reach, ylim=(0.0, None))
+    lower.set(xlabel=SINCE_ENTRY, ylabel="deviation (%)", xlim=reach)
     upper.legend(loc="upper left")
     return [upper, lower]

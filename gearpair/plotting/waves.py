@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from gearpair.plotting.style import BOUNDARY, INK, LABELS, new_axes
+from gearpair.plotting.style import BOUNDARY, INK, new_axes, note
+from gearpair.quantities import axis_label
 from gearpair.stiffness import StiffnessWave
 
 
@@ -20,20 +21,6 @@ def stiffness_wave(
 ) -> Axes:
     """The staircase over some mesh periods, and its mean as a dashed line.
 
-    Parameters
-    ----------
-    wave : StiffnessWave
-    ax : Axes, optional
-    n_periods : int
-    colour, label : str
-        Of the staircase.
-    mean : bool
-        Draw the mean.
-
-    Returns
-    -------
-    Axes
-
     Examples
     --------
     >>> stiffness_wave(StiffnessWave.rectangular()).texts[0].get_text()
@@ -44,13 +31,12 @@ def stiffness_wave(
     ax.stairs(np.tile(wave.levels, n_periods), edges, baseline=None, linewidth=1.8, color=colour, label=label)
     if mean:
         ax.axhline(wave.mean, color=colour, linestyle="--", linewidth=1.0)
-        ax.annotate(
-            f"mean {wave.mean:.4g}", (n_periods, wave.mean), xytext=(-3, -3 if wave.mean < 1.0 else 3),
-            textcoords="offset points", ha="right", va="top" if wave.mean < 1.0 else "bottom", fontsize=8, color=colour,
-        )  # fmt: skip
+        shift, va = (-3, "top") if wave.mean < 1.0 else (3, "bottom")
+        told = f"mean {wave.mean:.4g}"
+        note(ax, told, (n_periods, wave.mean), (-3, shift), ha="right", va=va, fontsize=8, color=colour)
     ax.axhline(1.0, color=BOUNDARY, linewidth=0.6, zorder=-1)
     top = max(1.0, *wave.levels)
-    ax.set(xlabel=LABELS["tau"], ylabel=r"stiffness $\bar k$", xlim=(0, n_periods))
+    ax.set(xlabel=axis_label("tau"), ylabel=axis_label("stiffness"), xlim=(0, n_periods))
     ax.set_ylim(0, max(1.12 * top, ax.get_ylim()[1]))
     return ax
 
@@ -63,17 +49,10 @@ def harmonics(
 
     Parameters
     ----------
-    wave : StiffnessWave
     n : int
         The highest harmonic shown.
-    ax : Axes, optional
-    colour, label : str
     offset : float
         Shift along the axis, to set several waves side by side.
-
-    Returns
-    -------
-    Axes
 
     Examples
     --------
@@ -84,7 +63,7 @@ def harmonics(
     order = np.arange(1, n + 1)
     amplitude = 2.0 * np.abs(wave.harmonics(n)[1:])
     ax.vlines(order + offset, 0.0, amplitude, color=colour, linewidth=1.4)
-    ax.plot(order + offset, amplitude, linestyle="", marker="o", markersize=4, color=colour, label=label)
+    ax.plot(order + offset, amplitude, "o", markersize=4, color=colour, label=label)
     ax.set(xlabel="harmonic $m$ of the mesh frequency", ylabel=r"amplitude $2|c_m|$")
     ax.set_xticks(order)
     ax.set_ylim(bottom=0.0)

@@ -1,4 +1,4 @@
-"""From source notebooks to the rendered book, and to accepted outputs."""
+"""From source notebooks to the rendered book."""
 
 from __future__ import annotations
 
@@ -17,18 +17,17 @@ from typing import Any
 import nbformat
 import yaml
 
-from gearpair.study.cache import Cache, library_digest, tree_digest, write_whole
+from gearpair.study.cache import Cache, library_digest, tree_digest
 from gearpair.study.chapters import Chapter, read_chapter
 from gearpair.study.claims import claimed
 from gearpair.study.errors import StudyError
-from gearpair.study.execution import execute
 from gearpair.study.finishing import finish_site
-from gearpair.study.record import RECORD, versions
+from gearpair.study.record import versions
 from gearpair.study.side_by_side import execute_all
 from gearpair.study.variants import Variant, read_variants, variant_page, with_variants
 
 EXECUTED = "book/chapters/"
-NOT_SOURCE = ("_build", "tests", "benchmarks", "dist", "build", "chapters", "__pycache__", "*.egg-info", ".*")
+NOT_SOURCE = ("_build", "tests", "tools", "benchmarks", "dist", "build", "chapters", "__pycache__", "*.egg-info", ".*")
 RENDERS = ("sphinx", "jupyter-book", "myst-nb", "sphinx-book-theme", "sphinxcontrib-bibtex", "pydata-sphinx-theme")
 
 
@@ -70,14 +69,14 @@ class Book:
 
     def pages(self) -> list[str]:
         """All pages after the first, in order."""
-        return _files({key: value for key, value in self.toc.items() if key != "root"})
+        return _files(self.toc)
 
     def chapter_names(self) -> list[str]:
         """Names of the chapters, in the order of the table of contents."""
-        return [file.removeprefix(EXECUTED) for file in _files(self.toc) if file.startswith(EXECUTED)]
+        return [file.removeprefix(EXECUTED) for file in self.pages() if file.startswith(EXECUTED)]
 
     def chapters(self) -> list[Chapter]:
-        """All chapters, read."""
+        """All chapters, in that order."""
         return [self.chapter(name) for name in self.chapter_names()]
 
     def chapter(self, name: str) -> Chapter:
@@ -111,8 +110,7 @@ def _files(entry: Any) -> list[str]:
     if isinstance(entry, list):
         return [file for item in entry for file in _files(item)]
     if isinstance(entry, dict):
-        here = [entry["file"]] if "file" in entry else []
-        return here + [file for value in entry.values() if isinstance(value, list) for file in _files(value)]
+        return [file for key, value in entry.items() for file in ([value] if key == "file" else _files(value))]
     return []
 
 
@@ -123,21 +121,10 @@ def need_book_extra() -> None:
 
 
 def build_book(book: Book, target: Path | None = None) -> Path:
-    """Execute the chapters and variants that have changed, render the site, and put it in place of the last one.
+    """Execute what has changed, render the site in `target` (`Book.target` if not given); return its first page.
 
     Everything is made beside the last good book, which a failure leaves untouched; what was executed until then is
     kept for the next time. Nothing is rendered where nothing has changed.
-
-    Parameters
-    ----------
-    book : Book
-    target : Path, optional
-        The directory to build in; `Book.target` when not given.
-
-    Returns
-    -------
-    Path
-        The site's first page.
 
     Raises
     ------
@@ -161,11 +148,12 @@ def build_book(book: Book, target: Path | None = None) -> Path:
         site = render(source, staging / "site", book)
         _put_in_place(source / EXECUTED, chapters)
         _put_in_place(site, html)
-        write_whole(stamp, json.dumps([made_from, tree_digest(html)]))
+        stamp.write_text(json.dumps([made_from, tree_digest(html)]), encoding="utf-8")
     return html / "index.html"
 
 
 def _read_stamp(path: Path) -> Any:
+    """What the last build was made from and came to; None where that is not told whole."""
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -205,10 +193,7 @@ def write_toc(source: Path, toc: Any) -> None:
 def render(source: Path, output: Path, book: Book) -> Path:
     """Build the site below `output` from `source`, a copy of the book with its executed chapters; return where it is.
 
-    Raises
-    ------
-    StudyError
-        If there was a warning.
+    A warning is an error.
     """
     code, told = run_jupyter_book(source, output, "--warningiserror", "--keep-going")
     if code:
@@ -223,69 +208,14 @@ def run_jupyter_book(source: Path, output: Path, *options: str) -> tuple[int, st
     """Render the sources; return the exit code and what was said."""
     code = "import sys; from jupyter_book.cli.main import main; sys.exit(main())"
     command = [sys.executable, "-c", code, "build", str(source), "--path-output", str(output), "--all", "--quiet"]
-    done = subprocess.run(
-        [*command, *options], check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    )
+    done = subprocess.run([*command, *options], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.returncode, done.stdout
 
 
 def _put_in_place(new: Path, old: Path) -> None:
-    """Let the directory `new` take the place of `old`."""
     aside = old.with_name(old.name + ".old")
     shutil.rmtree(aside, ignore_errors=True)
     if old.exists():
         os.replace(old, aside)
     os.replace(new, old)
     shutil.rmtree(aside, ignore_errors=True)
-
-
-def accept_outputs(book: Book, *, progress: bool = True) -> list[str]:
-    """Re-execute every source notebook with its defaults and store the new outputs.
-
-    All chapters run before any file is written. What differs from run to run or from machine to machine is not
-    stored: images, what was written to stderr, papermill's notes.
-
-    Returns
-    -------
-    list of str
-        The names of the chapters whose file changed.
-    """
-    scratch = book.root / "_build" / "accept"
-    scratch.mkdir(parents=True, exist_ok=True)
-    texts = {}
-    for chapter in book.chapters():
-        executed = execute(chapter, scratch / chapter.path.name, progress=progress)
-        texts[chapter.path] = nbformat.writes(stable_notebook(chapter.path, executed), version=4) + "\n"
-    changed = [path for path, text in texts.items() if path.read_text(encoding="utf-8") != text]
-    for path in changed:
-        scratch_file = scratch / path.name
-        scratch_file.write_text(texts[path], encoding="utf-8")
-        os.replace(scratch_file, path)
-    shutil.rmtree(scratch)
-    return [path.stem for path in changed]
-
-
-def stable_notebook(source: Path, executed: nbformat.NotebookNode) -> nbformat.NotebookNode:
-    """The notebook at `source` with the outputs of `executed`, less what is not stable."""
-    notebook = nbformat.read(source, as_version=4)
-    notebook.metadata = nbformat.from_dict(
-        {
-            "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
-            "language_info": {"name": "python"},
-        }
-    )
-    ran = [cell for cell in executed.cells if RECORD not in cell.metadata.get("tags", [])]
-    for cell, run in zip(notebook.cells, ran, strict=True):
-        if cell.cell_type == "code":
-            cell.execution_count = run.execution_count
-            cell.outputs = [stable for output in run.outputs if (stable := _stable_output(output)) is not None]
-    return notebook
-
-
-def _stable_output(output: nbformat.NotebookNode) -> nbformat.NotebookNode | None:
-    if output.get("name") == "stderr":
-        return None
-    if "data" in output:
-        output.data = {mime: data for mime, data in output.data.items() if not mime.startswith("image/")}
-        output.metadata = {key: value for key, value in output.metadata.items() if key == "scrapbook"}
-    return output

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import json
-import os
 import platform
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
@@ -43,11 +42,7 @@ class Cache:
 
     def seconds(self, name: str) -> float | None:
         """How long the chapter `name` took with its own parameters when it was last executed for the book."""
-        try:
-            found = sorted(self.directory.glob(f"{name}-*.ipynb"), key=lambda path: path.stat().st_mtime)
-        except OSError:
-            return None
-        for path in reversed(found):
+        for path in reversed(_oldest_first(self.directory.glob(f"{name}-*.ipynb"))):
             notebook = self.read(path)
             if notebook is not None and not notebook.metadata.gearpair.parameters:
                 return float(notebook.metadata.gearpair.seconds)
@@ -55,9 +50,12 @@ class Cache:
 
     def prune(self, used: Iterable[Path]) -> None:
         """Remove all but those `used` and the newest others."""
-        others = sorted(set(self.directory.glob("*.ipynb")) - {*used}, key=lambda path: path.stat().st_mtime)
-        for path in others[: max(0, len(others) - KEPT)]:
+        for path in _oldest_first(set(self.directory.glob("*.ipynb")) - {*used})[:-KEPT]:
             path.unlink(missing_ok=True)
+
+
+def _oldest_first(paths: Iterable[Path]) -> list[Path]:
+    return sorted((path for path in paths if path.exists()), key=lambda path: path.stat().st_mtime)
 
 
 def content_key(chapter: Chapter, values: Mapping[str, Any], lock: Path) -> str:
@@ -78,24 +76,16 @@ def library_digest(library: Path = LIBRARY) -> str:
 
     Without an argument, of the library that is imported here.
     """
-    digest = sha256()
-    for path in sorted(library.rglob("*")):
-        name = path.relative_to(library).as_posix()
-        if path.suffix in (".py", ".json") and (not name.startswith("study/") or name in MAKES):
-            digest.update(name.encode() + b"\0" + sha256(path.read_bytes()).digest())
-    return digest.hexdigest()
+    return tree_digest(
+        library,
+        lambda name: name.endswith((".py", ".json")) and (not name.startswith("study/") or name in MAKES),
+    )
 
 
-def tree_digest(directory: Path) -> str:
-    """A digest of every file below `directory`, names included."""
+def tree_digest(directory: Path, counts: Callable[[str], bool] = lambda name: True) -> str:
+    """A digest of every file below `directory` whose name (from there) `counts`, names included."""
     digest = sha256()
     for path in sorted(path for path in directory.rglob("*") if path.is_file()):
-        digest.update(path.relative_to(directory).as_posix().encode() + b"\0" + sha256(path.read_bytes()).digest())
+        if counts(name := path.relative_to(directory).as_posix()):
+            digest.update(name.encode() + b"\0" + sha256(path.read_bytes()).digest())
     return digest.hexdigest()
-
-
-def write_whole(path: Path, text: str) -> None:
-    """Write a file so that it is there whole or not at all."""
-    beside = path.with_name(f".{path.name}.{os.getpid()}")
-    beside.write_text(text, encoding="utf-8")
-    os.replace(beside, path)

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import ast
 import io
+import re
 import tokenize
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -30,21 +31,12 @@ SCALARS = {"float": "a number", "int": "a whole number", "bool": "true or false"
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter of a chapter.
-
-    Parameters
-    ----------
-    name, annotation : str
-        As written in the cell; the annotation is ``float``, ``int``, ``bool``, ``str``, a ``list[...]`` of one of
-        these, or one of these ``| None``.
-    default : object
-        The literal that stands in the cell.
-    comment : str
-        What the parameter is: the comment on its line.
-    """
+    """One parameter of a chapter, as its line in the cell has it."""
 
     name: str
-    annotation: str
+    annotation: (
+        str  # ``float``, ``int``, ``bool``, ``str``, a ``list[...]`` of one of these, or one of these ``| None``
+    )
     default: Any
     comment: str
 
@@ -57,20 +49,12 @@ class Parameter:
         >>> Parameter("shown", "list[float] | None", None, "frequencies").allowed
         'a list of numbers such as [1, 2], or none'
         """
-        inner, optional = _without_none(self.annotation)
-        if item := _item_type(inner):
-            word = f"a list of {SCALARS[item].split(' ', 1)[1]}s such as [1, 2]"
-        else:
-            word = SCALARS[inner]
+        kind, in_list, optional = _type(self.annotation)
+        word = f"a list of {SCALARS[kind].split(' ', 1)[1]}s such as [1, 2]" if in_list else SCALARS[kind]
         return f"{word}, or none" if optional else word
 
     def parse(self, text: str) -> Any:
-        """The value that `text`, typed on a command line, stands for.
-
-        Raises
-        ------
-        ValueError
-            If it is not of the declared type.
+        """The value that `text`, typed on a command line, stands for, or a ValueError.
 
         Examples
         --------
@@ -81,85 +65,67 @@ class Parameter:
             ...
         ValueError: not a whole number
         """
-        inner, optional = _without_none(self.annotation)
+        kind, in_list, optional = _type(self.annotation)
         if optional and text.strip().lower() in {"none", "null", "~", ""}:
             return None
-        if inner == "str":
+        if kind == "str" and not in_list:
             return text
         try:
-            value = yaml.safe_load(text)
+            return self.convert(yaml.safe_load(text))
         except yaml.YAMLError:
-            value = text
-        return self.convert(value) if value is not None else _scalar(inner, value)
+            return self.convert(text)
 
     def convert(self, value: Any) -> Any:
-        """`value`, read from a YAML file, as the declared type.
-
-        Raises
-        ------
-        ValueError
-            If it is not of that type.
+        """`value`, read from a YAML file, as the declared type, or a ValueError.
 
         Examples
         --------
         >>> Parameter("first_start", "list[float]", [1.0, 0.0], "X and X'").convert([1, "1e-3"])
         [1.0, 0.001]
         """
-        inner, optional = _without_none(self.annotation)
+        kind, in_list, optional = _type(self.annotation)
         if optional and value is None:
             return None
-        if item := _item_type(inner):
-            if not isinstance(value, list):
-                raise ValueError("not a list")
-            return [_scalar(item, element) for element in value]
-        return _scalar(inner, value)
+        if not in_list:
+            return _scalar(kind, value)
+        if not isinstance(value, list):
+            raise ValueError("not a list")
+        return [_scalar(kind, element) for element in value]
+
+    def suits(self, value: Any) -> bool:
+        """Whether `value` is of the declared type as it stands (a whole number will do for a float)."""
+        try:
+            return self.convert(value) == value
+        except ValueError:
+            return False
+
+
+def _type(annotation: str) -> tuple[str, bool, bool]:
+    """The scalar's type, whether the annotation is a list of it, and whether None is allowed."""
+    match = re.fullmatch(rf"(list\[)?({'|'.join(SCALARS)})(?(1)\])( \| None)?", annotation)
+    if match is None:
+        raise ValueError(f"no type of a parameter: {annotation}")
+    return match[2], match[1] is not None, match[3] is not None
 
 
 def _scalar(kind: str, value: Any) -> Any:
     """`value` as `kind`; YAML reads 1e-3 as a text, so a text is tried as a number."""
-    if kind == "float" and isinstance(value, int | float | str) and not isinstance(value, bool):
+    if type(value).__name__ == kind:
+        return value
+    if kind == "float" and type(value) in (int, str):
         return float(value)
-    if kind == "int" and isinstance(value, int) and not isinstance(value, bool):
-        return value
-    if kind == "bool" and isinstance(value, bool):
-        return value
-    if kind == "str" and isinstance(value, str):
-        return value
     raise ValueError(f"not {SCALARS[kind]}")
-
-
-def _without_none(annotation: str) -> tuple[str, bool]:
-    parts = [part.strip() for part in annotation.split("|")]
-    kept = [part for part in parts if part != "None"]
-    return " | ".join(kept), len(kept) < len(parts)
-
-
-def _item_type(annotation: str) -> str | None:
-    inside = annotation.removeprefix("list[").removesuffix("]")
-    return inside if annotation == f"list[{inside}]" and inside in SCALARS else None
-
-
-def _matches(annotation: str, value: Any) -> bool:
-    """Whether a default is of its declared type (a whole number will do for a float)."""
-    inner, optional = _without_none(annotation)
-    if value is None:
-        return optional
-    try:
-        if item := _item_type(inner):
-            return isinstance(value, list) and all(_matches(item, element) for element in value)
-        return not (inner == "float" and isinstance(value, str)) and _scalar(inner, value) is not None
-    except ValueError:
-        return False
 
 
 @dataclass(frozen=True)
 class Chapter:
-    """A parameterised notebook and what it declares."""
+    """A parameterised notebook and what it declares; `seconds` is about how long it takes, 0 where that is short."""
 
     path: Path
     title: str
     parameters: tuple[Parameter, ...]
     stands_for: Mapping[str, str] | None = None
+    seconds: float = 0.0
 
     @property
     def name(self) -> str:
@@ -174,12 +140,7 @@ class Chapter:
     def parse(self, given: Iterable[tuple[str, str]], file: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """The parameters to change, checked: types by the schema, ranges and relations by the library.
 
-        Parameters
-        ----------
-        given : iterable of (str, str)
-            Names and texts, as typed on a command line.
-        file : mapping of str to object, optional
-            Names and values, as read from a YAML file; those `given` go before them.
+        `given` are names and texts, as typed on a command line; they go before the names and values of a YAML `file`.
 
         Raises
         ------
@@ -228,7 +189,8 @@ def read_chapter(path: Path) -> Chapter:
         raise StudyError(f"{path} must have exactly one cell tagged {TAG!r}; it has {len(tagged)}")
     parameters = tuple(read_parameters(tagged[0].source, str(path)))
     after = notebook.cells[notebook.cells.index(tagged[0]) + 1 :]
-    return Chapter(path, _title(notebook, path), parameters, _stands_for(after))
+    seconds = float(notebook.metadata.get("gearpair", {}).get("seconds", 0.0))
+    return Chapter(path, _title(notebook, path), parameters, _stands_for(after), seconds)
 
 
 def _stands_for(cells: list[nbformat.NotebookNode]) -> dict[str, str] | None:
@@ -263,19 +225,21 @@ def read_parameters(source: str, where: str = "the parameters cell") -> list[Par
         if not (isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name) and statement.value):
             raise StudyError(f"{where}: {text!r} must be an annotated literal such as 'a: float = 0.1  # what it is'")
         name, annotation = statement.target.id, ast.unparse(statement.annotation)
-        inner, _ = _without_none(annotation)
-        if inner not in SCALARS and _item_type(inner) is None:
-            raise StudyError(f"{where}: {name} has type {annotation}; allowed are {', '.join(SCALARS)} and list[...]")
+        try:
+            _type(annotation)
+        except ValueError:
+            allowed = f"{', '.join(SCALARS)} and list[...]"
+            raise StudyError(f"{where}: {name} has type {annotation}; allowed are {allowed}") from None
         try:
             default = ast.literal_eval(statement.value)
         except ValueError:
             raise StudyError(f"{where}: {text!r} must have a literal for its default") from None
-        if not _matches(annotation, default):
+        parameter = Parameter(name, annotation, default, comments.get(statement.end_lineno or 0, ""))
+        if not parameter.suits(default):
             raise StudyError(f"{where}: the default of {name}, {default!r}, is not {annotation}")
-        comment = comments.get(statement.end_lineno or 0)
-        if not comment:
+        if not parameter.comment:
             raise StudyError(f"{where}: {name} has no comment that says what it is")
-        found.append(Parameter(name, annotation, default, comment))
+        found.append(parameter)
     return found
 
 
@@ -285,9 +249,7 @@ def _comments(source: str) -> dict[int, str]:
 
 
 def _title(notebook: nbformat.NotebookNode, path: Path) -> str:
-    for cell in notebook.cells:
-        if cell.cell_type == "markdown":
-            for line in cell.source.splitlines():
-                if line.startswith("# "):
-                    return str(line[2:].strip())
+    prose = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
+    if title := re.search("^# (.*)$", prose, re.MULTILINE):
+        return title[1].strip()
     raise StudyError(f"{path} has no title: no markdown line that starts with '# '")

@@ -1,4 +1,4 @@
-"""The command ``gearpair``: list the chapters, run one, build the book, accept new outputs."""
+"""The command ``gearpair``: list the chapters, run one, build the book."""
 
 from __future__ import annotations
 
@@ -28,21 +28,24 @@ STOPPED = 130
 PATH: Any = click.Path(path_type=Path)
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; return the exit code: 0, 1 for a failure told in one sentence, 2 for wrong usage."""
+def main(arguments: Sequence[str] | None = None, *, run: click.Command | None = None, name: str = "gearpair") -> int:
+    """Run the command line; return the exit code: 0, 1 for a failure told in one sentence, 2 for wrong usage.
+
+    `run` is another command than `command`, called `name`, to be run in the same way.
+    """
     try:
         with _stopped_by_signals():
-            command.main(None if arguments is None else [*arguments], prog_name="gearpair", standalone_mode=False)
+            (run or command).main(None if arguments is None else [*arguments], prog_name=name, standalone_mode=False)
     except StudyError as error:
-        print(f"gearpair: {error}", file=sys.stderr)
+        print(f"{name}: {error}", file=sys.stderr)
         return 1
     except click.UsageError as error:
         told = error.format_message()
-        where = error.ctx.command_path if error.ctx else "gearpair"
-        print(f"gearpair: {told}{'' if told.endswith(('.', '?')) else '.'} See {where} --help", file=sys.stderr)
+        where = error.ctx.command_path if error.ctx else name
+        print(f"{name}: {told}{'' if told.endswith(('.', '?')) else '.'} See {where} --help", file=sys.stderr)
         return 2
     except click.Abort:  # what click makes of a KeyboardInterrupt
-        print("gearpair: stopped", file=sys.stderr)
+        print(f"{name}: stopped", file=sys.stderr)
         return STOPPED
     return 0
 
@@ -164,32 +167,3 @@ def book(context: click.Context, output: Path | None) -> None:
     from gearpair.study.book import build_book
 
     print(f"The book is at {build_book(_book(context), output)}")
-
-
-@command.command()
-@click.pass_context
-def accept(context: click.Context) -> None:
-    """Re-execute the source notebooks and store their new outputs."""
-    from gearpair.study.book import accept_outputs
-
-    changed = accept_outputs(_book(context))
-    print(f"new outputs stored: {', '.join(changed)} (look at them with git diff)" if changed else "nothing changed")
-
-
-@command.command()
-@click.argument("chapters", nargs=-1)
-@click.pass_context
-def stability(context: click.Context, chapters: tuple[str, ...]) -> None:
-    """Run chapters on other terms and compare with the stored outputs.
-
-    As on a processor without fused multiply-add, with one thread, and with parameters changed by 1e-12. CHAPTERS are
-    names; all when none is given.
-    """
-    from gearpair.study.stability import check_stability
-
-    unstable = 0
-    for name, condition, cells in check_stability(_book(context), chapters):
-        unstable += bool(cells)
-        print(f"{name}, {condition}: " + (f"code cells {', '.join(map(str, cells))} differ" if cells else "the same"))
-    if unstable:
-        raise StudyError(f"{unstable} of the runs put out something else than is stored")

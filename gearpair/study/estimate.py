@@ -9,14 +9,11 @@ from typing import Any
 import numpy as np
 
 from gearpair.motion.settling import transient_periods
-from gearpair.oscillator import Oscillator
-from gearpair.stiffness import StiffnessWave
+from gearpair.parameters import PARTS, STANDS_FOR, oscillator_of
 from gearpair.study.chapters import Chapter
 
 WORTH_TELLING = 3.0
-GRID, AXES = ("n_x", "n_v"), ("n_values", "n_fine", "n_reached", "n_speeds")
 SAMPLES = 9  # oscillators along an axis whose cost stands for all
-WAVE = ("contact_ratio", "a", "b", "reading")
 
 
 def work_ratio(chapter: Chapter, values: Mapping[str, Any]) -> float:
@@ -37,8 +34,10 @@ def work_ratio(chapter: Chapter, values: Mapping[str, Any]) -> float:
     40
     """
     before, after = chapter.defaults, {**chapter.defaults, **values}
-    motions = max((after[name] / before[name] for name in AXES if name in before), default=1.0)
-    motions *= prod(after[name] / before[name] for name in GRID if name in before)
+    ratios = {name: after[name] / value for name, value in before.items() if name.startswith("n_") and value}
+    motions = max(
+        (prod(ratios[name] for name in part if name in ratios) for part in PARTS if {*part} & {*ratios}), default=1.0
+    )
     steps = before.get("phase_step", 1) / after.get("phase_step", 1)
     stands_for = chapter.stands_for or {}
     return motions * steps * _cost(after, stands_for) / _cost(before, stands_for)
@@ -46,11 +45,10 @@ def work_ratio(chapter: Chapter, values: Mapping[str, Any]) -> float:
 
 def _cost(values: Mapping[str, Any], stands_for: Mapping[str, str]) -> float:
     """Mesh periods of one motion times their length, on average along the chapter's axis."""
-    scalars = {name: values[name] for name in Oscillator().parameters if name in values and name not in WAVE}
-    osc = Oscillator(**scalars, stiffness=StiffnessWave.rectangular(**{n: values[n] for n in WAVE if n in values}))
+    osc = oscillator_of(values)
     oscillators = [osc]
     if "highest" in values:
-        axis = stands_for.get("highest", "mesh_frequency")
+        axis = {**STANDS_FOR, **stands_for}["highest"]
         ends = values.get("lowest", values["highest"] / SAMPLES), values["highest"]
         oscillators = [osc.replace(**{axis: float(value)}) for value in np.linspace(*ends, SAMPLES)]
     longest = values.get("n_transient", np.inf)

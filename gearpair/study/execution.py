@@ -20,6 +20,7 @@ from jupyter_client.manager import AsyncKernelManager
 from nbclient.exceptions import DeadKernelError
 from papermill.engines import NBClientEngine, papermill_engines
 from papermill.exceptions import PapermillExecutionError
+from traitlets.config import Config
 
 from gearpair.study.chapters import Chapter
 from gearpair.study.claims import claimed
@@ -34,14 +35,7 @@ class ThisInterpreter(AsyncKernelManager):
     """Starts the interpreter that runs this command, whatever kernels are installed on the machine.
 
     A kernel named python3 in a user's own Jupyter directory may belong to another environment, one without gearpair.
-    The talk with the kernel is encrypted where that is possible, for the kernel warns when it is not.
     """
-
-    scratch = Path()  # where the file with the kernel's addresses goes, so that it is cleared with the rest
-
-    def __init__(self, **settings: Any) -> None:
-        encryption = "auto" if zmq.has("curve") else "disabled"
-        super().__init__(transport_encryption=encryption, connection_file=str(self.scratch / "kernel.json"), **settings)
 
     @property
     def kernel_spec(self) -> KernelSpec:
@@ -50,13 +44,13 @@ class ThisInterpreter(AsyncKernelManager):
 
 
 class LivelyEngine(NBClientEngine):  # type: ignore[misc]
-    """papermill's engine; its bar shows the time also while one cell runs long, and a stop kills the kernel at once."""
+    """papermill's engine, whose bar shows the time also while one cell runs long."""
 
     @classmethod
     def execute_managed_notebook(cls, nb_man: Any, kernel_name: str, **settings: Any) -> Any:
         """Run the notebook."""
         with _refreshed(getattr(nb_man, "pbar", None)):
-            return super().execute_managed_notebook(nb_man, kernel_name, shutdown_kernel="immediate", **settings)
+            return super().execute_managed_notebook(nb_man, kernel_name, **settings)
 
 
 papermill_engines.register("lively", LivelyEngine)
@@ -67,12 +61,9 @@ def _refreshed(bar: Any) -> Iterator[None]:
     over = threading.Event()
 
     def refresh() -> None:
-        while not over.wait(REFRESH):
+        while bar is not None and not over.wait(REFRESH):
             bar.refresh()
 
-    if bar is None:
-        yield
-        return
     thread = threading.Thread(target=refresh, daemon=True)
     thread.start()
     try:
@@ -90,20 +81,8 @@ def execute(
     Nothing is written unless every cell has run, and nothing else stays: not when the run is stopped, and after a
     kill not beyond the next run of the same output.
 
-    Parameters
-    ----------
-    chapter : Chapter
-    output : Path
-        Where the executed notebook goes; its directory exists.
-    values : mapping of str to object, optional
-        Parameters to change, as `Chapter.parse` returns them.
-    progress : bool
-        Whether papermill's progress bar is shown.
-
-    Returns
-    -------
-    NotebookNode
-        The executed notebook, which ends with how it was made.
+    `values` are the parameters to change, as `Chapter.parse` returns them; the directory of `output` exists. The
+    notebook that is returned, too, ends with how it was made. `progress` shows papermill's bar.
 
     Raises
     ------
@@ -114,6 +93,12 @@ def execute(
     logging.getLogger("papermill").setLevel(logging.ERROR)
     with claimed(output) as scratch:
         partial = scratch / output.name
+        # The file with the kernel's addresses is cleared with the rest. The talk with the kernel is encrypted where
+        # that is possible, for the kernel warns when it is not.
+        kernel = {
+            "connection_file": str(scratch.resolve() / "kernel.json"),
+            "transport_encryption": "auto" if zmq.has("curve") else "disabled",
+        }
         began = time.perf_counter()
         try:
             notebook = papermill.execute_notebook(
@@ -124,7 +109,9 @@ def execute(
                 kernel_name="python3",
                 language="python",
                 iopub_timeout=PATIENCE,
-                kernel_manager_class=type("ThisInterpreter", (ThisInterpreter,), {"scratch": scratch.resolve()}),
+                kernel_manager_class=ThisInterpreter,
+                config=Config(ThisInterpreter=kernel),
+                shutdown_kernel="immediate",  # a stop does not wait for a cell
                 progress_bar={"desc": chapter.name} if progress else False,
             )
         except PapermillExecutionError as error:

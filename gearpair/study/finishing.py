@@ -28,6 +28,7 @@ MENDS: tuple[tuple[str, str, str], ...] = (
         "no landmark held it",
     ),
     (r'<summary aria-label="Toggle hidden content">', "<summary>", "the label hid the words that are seen"),
+    (r'(<button class="btn search-button-field[^>]*) aria-label="Search"', r"\1", "its words are seen: Search Ctrl+K"),
     (r'<summary>(?=<span class="toctree-toggle")', '<summary aria-label="Pages below this one">', "only an icon"),
     (
         r'<p class="(collapsed|expanded) admonition-title">([^<]*)</p>',
@@ -49,7 +50,6 @@ MENDS: tuple[tuple[str, str, str], ...] = (
     (r'<span class="pre">(?=--?[\w.=-]{1,28}</span>)', '<span class="pre option">', "broken after its hyphen"),
     (r'\s+autocorrect="off"', "", "not yet known to HTML checkers, and nothing is corrected in a search"),
 )
-_COMPILED = tuple((re.compile(pattern, re.DOTALL), new) for pattern, new, _ in MENDS)
 
 LONGEST_TABLE = 24  # rows of a table that still fits on a screen
 TABLE = re.compile(r'<div class="output text_html">(?=(\s*<table.*?</table>))', re.DOTALL)
@@ -89,8 +89,8 @@ def mend(html: str) -> str:
     >>> mend('<summary aria-label="Toggle hidden content">')
     '<summary>'
     """
-    for pattern, new in _COMPILED:
-        html = pattern.sub(new, html)
+    for pattern, new, _ in MENDS:
+        html = re.sub(pattern, new, html, flags=re.DOTALL)
     return TABLE.sub(lambda found: LONG_TABLE if found[1].count("<tr") > LONGEST_TABLE else found[0], html)
 
 

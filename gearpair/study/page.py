@@ -40,23 +40,10 @@ PAGE = """<!DOCTYPE html>
 def make_page(
     book: Book, chapter: Chapter, output: Path, values: Mapping[str, Any] | None = None, *, progress: bool = True
 ) -> None:
-    """Execute `chapter` and write it as one page that needs neither a network nor another file.
+    """`execute` a chapter and write it as one page that needs neither a network nor another file.
 
-    References to other pages of the book are left as text.
-
-    Parameters
-    ----------
-    book : Book
-        Its prose gives the numbers of the equations that the chapter refers to.
-    chapter, values, progress
-        As for `execute`.
-    output : Path
-        The page.
-
-    Raises
-    ------
-    StudyError
-        If the chapter fails, or its page does not build.
+    The prose of `book` gives the numbers of the equations that the chapter refers to. References to other pages are
+    left as text. A StudyError tells that the chapter failed, or its page did not build.
     """
     with claimed(output) as scratch:
         source = scratch / "source"
@@ -68,33 +55,22 @@ def make_page(
             if cell.cell_type == "markdown":
                 cell.source = LINK.sub(lambda link: link[1] or titles.get(link[2], link[2]), cell.source)
         nbformat.write(executed, notebook)
-        write_toc(source, _without_chapters(book.toc, f"{EXECUTED}{chapter.name}"))
+        write_toc(source, _toc_of_one(book, f"{EXECUTED}{chapter.name}"))
         code, told = run_jupyter_book(source, scratch / "site")
         html = scratch / "site" / "_build" / "html"
         page = html / f"{EXECUTED}{chapter.name}.html"
         if not page.is_file():
-            raise StudyError(
-                f"the page of {chapter.name} did not build: {(told.strip() or str(code)).splitlines()[-1]}"
-            )
+            last = (told.strip() or str(code)).splitlines()[-1]
+            raise StudyError(f"the page of {chapter.name} did not build: {last}")
         whole = scratch / output.name
         whole.write_text(_whole(page, html), encoding="utf-8")
         os.replace(whole, output)
 
 
-def _without_chapters(toc: Any, kept: str) -> Any:
-    """The table of contents without any chapter but `kept`, which is added where it is not in it."""
-    files = {"file": kept}
-    prose = [file for file in _prose(toc) if file != toc["root"]]
-    return {"format": "jb-book", "root": toc["root"], "chapters": [files, *({"file": file} for file in prose)]}
-
-
-def _prose(entry: Any) -> list[str]:
-    if isinstance(entry, list):
-        return [file for item in entry for file in _prose(item)]
-    if not isinstance(entry, dict):
-        return []
-    own = [entry["file"]] if "file" in entry and not entry["file"].startswith(EXECUTED) else []
-    return own + [file for value in entry.values() for file in _prose(value)]
+def _toc_of_one(book: Book, kept: str) -> dict[str, Any]:
+    """A table of contents with all prose and no chapter but `kept`."""
+    files = [kept, *(page for page in book.pages() if not page.startswith(EXECUTED))]
+    return {"format": "jb-book", "root": book.toc["root"], "chapters": [{"file": file} for file in files]}
 
 
 def _whole(page: Path, html: Path) -> str:
@@ -105,12 +81,14 @@ def _whole(page: Path, html: Path) -> str:
     for each in article.find_all("script"):
         each.decompose()
     for image in article.find_all("img"):
-        image["src"] = _inline((page.parent / str(image["src"]).partition("?")[0]).resolve())
+        image["src"] = _inline(_beside(page, image["src"]))
     for link in article.find_all("a"):
         if not re.match("#|https?:|mailto:", str(link.get("href", "#"))):
             link.unwrap()
-    for box in article.select(".admonition.dropdown"):
-        _fold(box)
+    for box in article.select(".admonition.dropdown"):  # a script would fold it; so it folds by itself
+        box.name = "details"
+        for heading in box.select(".admonition-title")[:1]:
+            heading.name = "summary"
     title = soup.find("h1")
     style = "\n".join(_styles(soup, page))
     mathjax = html / "_static" / MATHJAX  # a book without formulas may do without it
@@ -123,24 +101,19 @@ def _whole(page: Path, html: Path) -> str:
     )
 
 
-def _fold(box: Tag) -> None:
-    """A box that a script would fold becomes one that folds by itself."""
-    heading = box.find("p", class_="admonition-title")
-    box.name = "details"
-    if heading is not None:
-        assert isinstance(heading, Tag)
-        heading.name = "summary"
-
-
 def _styles(soup: BeautifulSoup, page: Path) -> list[str]:
     """The text of the page's style sheets, without what they would fetch."""
     found = []
     for link in soup.find_all("link", rel="stylesheet"):
-        path = (page.parent / str(link["href"]).partition("?")[0]).resolve()
+        path = _beside(page, link["href"])
         if path.is_file():
             text = re.sub(r"@import[^;]*;|@font-face\s*{[^}]*}", "", path.read_text(encoding="utf-8"))
             found.append(re.sub(r"url\((?!['\"]?(?:data:|#))[^)]*\)", "none", text))
     return found
+
+
+def _beside(page: Path, address: object) -> Path:
+    return (page.parent / str(address).partition("?")[0]).resolve()
 
 
 def _inline(path: Path) -> str:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import os
 import platform
+import re
 import subprocess
 from collections.abc import Mapping
+from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -17,6 +19,10 @@ from gearpair.study.chapters import Chapter
 
 TOLD = ("gearpair", "numpy", "scipy", "numba", "matplotlib", "xarray", "papermill")
 RECORD = "how-it-was-made"  # the tag and the id of the last cell
+KERNEL = {  # what a notebook tells of its kernel: nothing of this machine's
+    "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+    "language_info": {"name": "python"},
+}
 
 
 def circumstances(notebook: Path, seconds: float) -> dict[str, Any]:
@@ -30,13 +36,11 @@ def circumstances(notebook: Path, seconds: float) -> dict[str, Any]:
 
 
 def versions(packages: tuple[str, ...]) -> dict[str, str]:
-    """The installed versions of `packages`, of those that are installed."""
+    """The versions of those `packages` that are installed."""
     found = {}
     for package in packages:
-        try:
+        with suppress(PackageNotFoundError):
             found[package] = version(package)
-        except PackageNotFoundError:
-            continue
     return found
 
 
@@ -52,12 +56,9 @@ def revision(directory: Path) -> str:
 
 def processor() -> str:
     """The processor's name as the system gives it."""
-    try:
-        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    except OSError:
-        pass
+    with suppress(OSError):
+        if name := re.search("^model name.*: (.*)", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.MULTILINE):
+            return name[1].strip()
     return platform.processor() or platform.machine()
 
 
@@ -67,25 +68,32 @@ def recorded(
     """The executed `notebook` with how it was made at its end.
 
     Times of the cells, directories and whatever was written to stderr are taken out: readers can download it, and
-    what is left is the same at every run but for the record, which stays in the cell and in ``metadata.gearpair``.
+    what is left is the same at every run but for the record, which stays in the cell and in ``metadata.gearpair``;
+    there ``warned`` counts, from 0, the code cells that wrote to stderr.
     """
+    ran = [cell for cell in notebook.cells if cell.cell_type == "code" and not _injected(cell)]
+    warned = [number for number, cell in enumerate(ran) if any(out.get("name") == "stderr" for out in cell.outputs)]
     notebook.metadata = nbformat.from_dict(
         {
-            "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
-            "language_info": {"name": "python"},
-            "gearpair": {**made, "chapter": chapter.name, "parameters": dict(values)},
+            **KERNEL,
+            "gearpair": {**made, "chapter": chapter.name, "parameters": dict(values), "warned": warned},
         }
     )
     for cell in notebook.cells:
         for key in ("papermill", "execution"):
             cell.metadata.pop(key, None)
-        if "injected-parameters" in cell.metadata.get("tags", []):
+        if _injected(cell):
             cell.id = "injected-parameters"
         if cell.cell_type == "code":
             cell.outputs = [output for output in cell.outputs if output.get("name") != "stderr"]
     cell = new_markdown_cell(_record(chapter, values, made), id=RECORD, metadata={"tags": [RECORD]})
     notebook.cells = [each for each in notebook.cells if RECORD not in each.metadata.get("tags", [])] + [cell]
     return notebook
+
+
+def _injected(cell: nbformat.NotebookNode) -> bool:
+    """Whether papermill put the cell in, to set parameters."""
+    return "injected-parameters" in cell.metadata.get("tags", [])
 
 
 def _record(chapter: Chapter, values: Mapping[str, Any], made: Mapping[str, Any]) -> str:

@@ -8,10 +8,12 @@ import subprocess
 import sys
 import time
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
+import click
 import nbformat
 
 from gearpair.study.cache import LIBRARY, Cache
@@ -25,10 +27,12 @@ POLL = 0.05
 
 
 @dataclass
-class Job:
+class Task:
     """A page to execute, and where its notebook is kept."""
 
-    page: Chapter | Variant
+    name: str
+    chapter: Chapter
+    values: Mapping[str, Any]
     kept: Path
     began: float = 0.0
     log: Path = Path()
@@ -39,56 +43,50 @@ def execute_all(
 ) -> dict[str, tuple[Chapter | Variant, nbformat.NotebookNode]]:
     """The executed notebooks of all pages, by name: from the cache, or computed, as many at once as there are cores.
 
-    Parameters
-    ----------
-    pages : iterable of Chapter or Variant
-    cache : Cache
-        What is computed is kept there as soon as it is there, so that a build that is stopped loses little.
-    lock : Path
-        The lock file, part of the content keys.
-    scratch : Path
-        A directory for the processes' messages.
-
-    Raises
-    ------
-    StudyError
-        That of the first page to fail; the others are stopped.
+    What is computed is in the cache at once, so that a build that is stopped loses little. The `lock` file is part of
+    the content keys, and the processes' messages go to `scratch`. Where a page fails, a StudyError tells so and the
+    others are stopped.
     """
     cache.directory.mkdir(parents=True, exist_ok=True)
-    jobs = [Job(page, cache.path(_chapter(page), _values(page), lock)) for page in pages]
-    found = {job.kept: cache.read(job.kept) for job in jobs}
-    missing = {job.kept: job for job in jobs if found[job.kept] is None}
-    _run([*missing.values()], scratch)
+    named = {page.name: page for page in pages}
+    tasks = []
+    for name, page in named.items():
+        chapter, values = (page.chapter, page.values) if isinstance(page, Variant) else (page, {})
+        tasks.append(Task(name, chapter, values, cache.path(chapter, values, lock)))
+    found = {task.kept: cache.read(task.kept) for task in tasks}
+    missing = {task.kept: task for task in tasks if found[task.kept] is None}
+    _run(longest_first([*missing.values()], cache), scratch)
     cache.prune(found)
-    for kept in missing:
-        found[kept] = cache.read(kept)
-    return {job.page.name: (job.page, nbformat.from_dict(found[job.kept])) for job in jobs}
+    found |= {kept: cache.read(kept) for kept in missing}
+    return {task.name: (named[task.name], nbformat.from_dict(found[task.kept])) for task in tasks}
 
 
-def _chapter(page: Chapter | Variant) -> Chapter:
-    return page.chapter if isinstance(page, Variant) else page
+def longest_first(tasks: list[Task], cache: Cache) -> list[Task]:
+    """The tasks by what their chapters took here the last time, else by what their notebooks tell; the longest first.
+
+    One that began last would keep a single core at work while the others wait.
+    """
+    return sorted(tasks, key=lambda task: cache.seconds(task.chapter.name) or task.chapter.seconds, reverse=True)
 
 
-def _values(page: Chapter | Variant) -> dict[str, object]:
-    return page.values if isinstance(page, Variant) else {}
-
-
-def _run(jobs: list[Job], scratch: Path) -> None:
-    waiting, running = deque(jobs), dict[subprocess.Popen[bytes], Job]()
-    at_once = max(1, min(len(jobs), os.cpu_count() or 1))
-    if jobs:
-        _say(f"to execute: {', '.join(job.page.name for job in jobs)} ({at_once} at a time)")
+def _run(tasks: list[Task], scratch: Path) -> None:
+    waiting, running = deque(tasks), dict[subprocess.Popen[bytes], Task]()
+    at_once = max(1, min(len(tasks), os.cpu_count() or 1))
+    if tasks:
+        click.echo(f"to execute: {', '.join(task.name for task in tasks)} ({at_once} at a time)", err=True)
     told = time.monotonic()
     try:
         while waiting or running:
             while waiting and len(running) < at_once:
-                job = waiting.popleft()
-                running[_start(job, scratch)] = job
+                task = waiting.popleft()
+                running[_start(task, scratch)] = task
             for process in [process for process in running if process.poll() is not None]:
                 _finish(running.pop(process), process.returncode)
                 told = time.monotonic()
             if time.monotonic() - told > SIGN_OF_LIFE:
-                _say(f"running: {', '.join(f'{job.page.name} ({_since(job)})' for job in running.values())}")
+                click.echo(
+                    f"running: {', '.join(f'{task.name} ({_since(task)})' for task in running.values())}", err=True
+                )
                 told = time.monotonic()
             time.sleep(POLL)
     finally:
@@ -98,16 +96,16 @@ def _run(jobs: list[Job], scratch: Path) -> None:
             process.wait()
 
 
-def _start(job: Job, scratch: Path) -> subprocess.Popen[bytes]:
+def _start(task: Task, scratch: Path) -> subprocess.Popen[bytes]:
     """`gearpair run` in a process and a session of its own: Ctrl-C reaches it by way of this one alone."""
-    chapter, job.began, job.log = _chapter(job.page), time.monotonic(), scratch / f"{job.page.name}.log"
-    words = ["run", str(chapter.path), "--output", str(job.kept), "--quiet"]
-    parameters = scratch / f"{job.page.name}.yml"
-    parameters.write_text(json.dumps(_values(job.page)), encoding="utf-8")  # JSON is YAML
+    task.began, task.log = time.monotonic(), scratch / f"{task.name}.log"
+    parameters = scratch / f"{task.name}.yml"
+    parameters.write_text(json.dumps(task.values), encoding="utf-8")  # JSON is YAML
+    words = ["run", str(task.chapter.path), "--output", str(task.kept), "--quiet", "--file", str(parameters)]
     path = os.pathsep.join(filter(None, [str(LIBRARY.parent), os.environ.get("PYTHONPATH")]))
-    with job.log.open("wb") as log:
+    with task.log.open("wb") as log:
         return subprocess.Popen(
-            [sys.executable, "-m", "gearpair", *words, "--file", str(parameters)],
+            [sys.executable, "-m", "gearpair", *words],
             stdin=subprocess.DEVNULL,
             stdout=log,
             stderr=subprocess.STDOUT,
@@ -116,16 +114,12 @@ def _start(job: Job, scratch: Path) -> subprocess.Popen[bytes]:
         )
 
 
-def _finish(job: Job, code: int) -> None:
+def _finish(task: Task, code: int) -> None:
     if code:
-        last = (job.log.read_text(encoding="utf-8", errors="replace").strip() or f"exit code {code}").splitlines()[-1]
-        raise StudyError(last.removeprefix("gearpair: ").replace(_chapter(job.page).name, job.page.name, 1))
-    _say(f"{job.page.name}: executed in {_since(job)}")
+        last = (task.log.read_text(encoding="utf-8", errors="replace").strip() or f"exit code {code}").splitlines()[-1]
+        raise StudyError(last.removeprefix("gearpair: ").replace(task.chapter.name, task.name, 1))
+    click.echo(f"{task.name}: executed in {_since(task)}", err=True)
 
 
-def _since(job: Job) -> str:
-    return duration(time.monotonic() - job.began)
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
+def _since(task: Task) -> str:
+    return duration(time.monotonic() - task.began)

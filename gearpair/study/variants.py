@@ -35,34 +35,17 @@ DEFINED = re.compile(r"^\(([\w-]+)\)=$|^\$\$ \(([\w-]+)\)$|^:(?:label|name): ([\
 
 @dataclass(frozen=True)
 class Variant:
-    """A chapter with other parameters.
+    """A chapter with other parameters."""
 
-    Parameters
-    ----------
-    name : str
-        Of the page: the chapter's name, an underscore, and what the variant is called.
-    chapter : Chapter
-    title, why : str
-        Shown at the head.
-    values : dict
-        All parameters that are given, the common ones included.
-    """
-
-    name: str
+    name: str  # of the page: the chapter's name, an underscore, and what the variant is called
     chapter: Chapter
-    title: str
+    title: str  # this and the next are shown at the head
     why: str
-    values: dict[str, Any]
+    values: dict[str, Any]  # all that are given, the common ones included
 
 
 def read_variants(path: Path, chapter: Callable[[str], Chapter]) -> list[Variant]:
-    """The variants that the file declares, checked; none where there is no file.
-
-    Raises
-    ------
-    StudyError
-        Naming the variant and what is wrong with it.
-    """
+    """The variants that the file declares, none where there is no file; a StudyError names what is wrong with one."""
     if not path.is_file():
         return []
     try:
@@ -94,21 +77,22 @@ def variant_page(variant: Variant, executed: nbformat.NotebookNode) -> nbformat.
         if cell.cell_type == "markdown":
             cell.source = renamed(cell.source)
             if title in cell.source.splitlines():
-                cell.source = cell.source.replace(title, f"## {variant.chapter.title}", 1)
+                cell.source = cell.source.replace(title, f"#{title}", 1)
         figure = cell.metadata.get("mystnb", {}).get("figure", {})
-        for key in ("name", "caption"):
-            if key in figure:
-                figure[key] = renamed(f"`{figure[key]}`")[1:-1] if key == "name" else renamed(figure[key])
+        if "name" in figure:
+            figure["name"] = renamed(f"`{figure['name']}`")[1:-1]
+        if "caption" in figure:
+            figure["caption"] = renamed(figure["caption"])
     notebook.cells.insert(0, new_markdown_cell(_head(variant), id="what-was-changed"))
     return notebook
 
 
 def _head(variant: Variant) -> str:
-    comments = {parameter.name: parameter.comment for parameter in variant.chapter.parameters}
-    changed = {name: value for name, value in variant.values.items() if value != variant.chapter.defaults[name]}
+    declared = {parameter.name: parameter for parameter in variant.chapter.parameters}
     rows = [
-        f"| `{name}` | {comments[name]} | `{variant.chapter.defaults[name]!r}` | **`{value!r}`** |"
-        for name, value in changed.items()
+        f"| `{name}` | {declared[name].comment} | `{declared[name].default!r}` | **`{value!r}`** |"
+        for name, value in variant.values.items()
+        if value != declared[name].default
     ]
     table = "\n".join(["| parameter | what it is | in the chapter | here |", "|---|---|---|---|", *rows])
     chapter = f"[{variant.chapter.title}]({variant.chapter.path.name})"

@@ -19,7 +19,7 @@ AGREEING = 0.95  # of the points in it, to count as right: a point on a jump may
 
 
 class Marks:
-    """The marks of one graded cell.
+    """The marks of one graded cell; each item has a `name` for its sentence, and earns `marks` at most.
 
     Its `repr` is what nbgrader reads: the total, once something has been marked. Before that (in the student's
     notebook, which has no hidden tests) it says whether the answers are there at all.
@@ -64,13 +64,8 @@ class Marks:
 
         Parameters
         ----------
-        name : str
-            Of the answer, for the sentence.
-        given : object
-            The answer.
-        truth : float
-        marks : float
-            For the right number; half of it where it is off by a power of ten alone.
+        given, truth : object, float
+            The answer and what is right; one off by a power of ten alone earns half.
         within : float
             Largest relative error of a right answer (absolute, where the truth is 0).
         nearly : float
@@ -93,10 +88,8 @@ class Marks:
 
         Parameters
         ----------
-        name : str
         given, truth : object
             Texts are compared without regard to capitals and blanks around them.
-        marks : float
         """
         if given is None or isinstance(given, Unreadable):
             self._give(name, _instead_of("an answer", given), 0.0, marks)
@@ -123,15 +116,12 @@ class Marks:
 
         Parameters
         ----------
-        name : str
         axes : Axes or Drawing
         truth : callable
             The right y for an array of x.
         over : tuple of float
-            The range of x that the curve must cover.
-        marks : float
-            Half of it where the curve is right but covers less than the range, has too few points, or is off by a
-            power of ten.
+            The range of x that the curve must cover; a right one that covers less, has too few points, or is off by a
+            power of ten earns half.
         within : float
             Largest error, relative to the largest true value.
         points : int
@@ -147,14 +137,7 @@ class Marks:
         self._give(name, sentence.get(best, "no curve of the figure has the right values"), best * marks, marks)
 
     def labels(self, name: str, axes: Any, *, marks: float = 1.0) -> None:
-        """Mark the labels of a figure's axes: half of the marks for each.
-
-        Parameters
-        ----------
-        name : str
-        axes : Axes or Drawing
-        marks : float
-        """
+        """Mark the labels of the axes of a figure, an Axes or a `Drawing`: half of the marks for each."""
         drawn = drawing(axes)
         there = sum(bool(label.strip()) for label in (drawn.x_label, drawn.y_label)) if drawn else 0
         self._give(name, ("none", "one of two", "both there")[there], HALF * there * marks, marks)

@@ -5,26 +5,28 @@ from __future__ import annotations
 import hashlib
 import math
 import re
-from typing import TypeVar
+from collections.abc import Sequence
+from typing import Any
 
 from gearpair.drive import GearDrive
 from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
 from gearpair.teeth import SpurGear, SpurPair, mesh_stiffness
 
-Choice = TypeVar("Choice")
 ALLOWED = re.compile(r"[a-z0-9][a-z0-9._@-]{1,63}")
 STEEL_KG_M3 = 7850.0
 
 # With any of these the pair can be cut, and its motion has the structure that the assignments ask about.
-PINION_TEETH = tuple(range(27, 41))
-GEAR_TEETH = tuple(range(42, 64))
-MODULES_MM = (2.0, 2.5, 3.0, 4.0)
-FACE_WIDTHS_MM = (16.0, 20.0, 24.0, 28.0, 32.0)
-MEAN_FORCES = (0.108, 0.110, 0.112, 0.114, 0.116, 0.118, 0.120)
-ERROR_AMPLITUDES = (0.155, 0.160, 0.165, 0.170, 0.175)
-DAMPING_RATIOS = (0.064, 0.066, 0.068, 0.07, 0.072, 0.074)
-BACKLASHES_UM = (60.0, 80.0, 100.0, 120.0)
+CHOICES: dict[str, Sequence[float]] = {
+    "pinion_teeth": range(27, 41),
+    "gear_teeth": range(42, 64),
+    "module_mm": (2.0, 2.5, 3.0, 4.0),
+    "face_width_mm": (16.0, 20.0, 24.0, 28.0, 32.0),
+    "mean_force": (0.108, 0.110, 0.112, 0.114, 0.116, 0.118, 0.120),
+    "error_amplitude": (0.155, 0.160, 0.165, 0.170, 0.175),
+    "damping_ratio": (0.064, 0.066, 0.068, 0.07, 0.072, 0.074),
+    "backlash_um": (60.0, 80.0, 100.0, 120.0),
+}
 MESH_FREQUENCY = 0.6
 
 
@@ -63,22 +65,12 @@ def check_student_id(student_id: object) -> str:
 
 
 def personal_pair(student_id: str) -> SpurPair:
-    """The gears of one student or group.
+    """The gears of one student or group: full-depth teeth at 20 degrees; teeth, module and face width by the id.
 
     Parameters
     ----------
     student_id : str
-        As for `check_student_id`; capitals do not matter.
-
-    Returns
-    -------
-    SpurPair
-        Full-depth teeth at 20 degrees; teeth, module and face width depend on the id.
-
-    Raises
-    ------
-    ValueError
-        For what cannot be an id.
+        As `check_student_id` takes and refuses it; capitals do not matter.
 
     Examples
     --------
@@ -86,34 +78,18 @@ def personal_pair(student_id: str) -> SpurPair:
     >>> pair == personal_pair("Ada"), pair == personal_pair("grace")
     (True, False)
     """
-    who = check_student_id(student_id)
-    return SpurPair(
-        pinion_teeth=_pick(who, "pinion_teeth", PINION_TEETH),
-        gear_teeth=_pick(who, "gear_teeth", GEAR_TEETH),
-        module_mm=_pick(who, "module_mm", MODULES_MM),
-        face_width_mm=_pick(who, "face_width_mm", FACE_WIDTHS_MM),
-    )
+    return SpurPair(**_chosen(student_id, "pinion_teeth", "gear_teeth", "module_mm", "face_width_mm"))
 
 
 def personal_oscillator(student_id: str) -> Oscillator:
-    """The dimensionless oscillator of one student or group.
+    """The dimensionless oscillator of one student or group: the two-level wave of `personal_pair`; the rest by the id.
 
-    Its stiffness is the two-level wave of `personal_pair`; force, error and damping depend on the id.
+    It runs at the mesh frequency 0.6, where every student's pair has a motion that keeps contact.
 
     Parameters
     ----------
     student_id : str
-        As for `check_student_id`.
-
-    Returns
-    -------
-    Oscillator
-        At the mesh frequency 0.6, where every student's pair has a motion that keeps contact.
-
-    Raises
-    ------
-    ValueError
-        For what cannot be an id.
+        As for `personal_pair`.
 
     Examples
     --------
@@ -121,12 +97,9 @@ def personal_oscillator(student_id: str) -> Oscillator:
     >>> round(osc.stiffness.mean, 12), osc.mesh_frequency
     (1.0, 0.6)
     """
-    who = check_student_id(student_id)
-    rectangle = mesh_stiffness(personal_pair(who)).rectangular()
+    rectangle = mesh_stiffness(personal_pair(student_id)).rectangular()
     return Oscillator(
-        mean_force=_pick(who, "mean_force", MEAN_FORCES),
-        error_amplitude=_pick(who, "error_amplitude", ERROR_AMPLITUDES),
-        damping_ratio=_pick(who, "damping_ratio", DAMPING_RATIOS),
+        **_chosen(student_id, "mean_force", "error_amplitude", "damping_ratio"),
         mesh_frequency=MESH_FREQUENCY,
         stiffness=StiffnessWave.rectangular(rectangle.contact_ratio, rectangle.a, rectangle.b),
     )
@@ -135,20 +108,12 @@ def personal_oscillator(student_id: str) -> Oscillator:
 def personal_drive(student_id: str) -> GearDrive:
     """The drive of one student or group in SI units: `personal_pair` with the numbers of `personal_oscillator`.
 
+    The gears are steel rings from the bore to the pitch circle.
+
     Parameters
     ----------
     student_id : str
-        As for `check_student_id`.
-
-    Returns
-    -------
-    GearDrive
-        The gears are steel rings from the bore to the pitch circle.
-
-    Raises
-    ------
-    ValueError
-        For what cannot be an id.
+        As for `personal_pair`.
 
     Examples
     --------
@@ -157,28 +122,27 @@ def personal_drive(student_id: str) -> GearDrive:
     >>> round(drive.oscillator().damping_ratio, 9) == osc.damping_ratio
     True
     """
-    who = check_student_id(student_id)
-    pair, osc = personal_pair(who), personal_oscillator(who)
+    pair = personal_pair(student_id)
     blank = GearDrive(
         pinion_teeth=pair.pinion_teeth,
         pinion_inertia_kg_m2=_ring_inertia(pair.pinion, pair.face_width_mm),
         gear_inertia_kg_m2=_ring_inertia(pair.gear, pair.face_width_mm),
         pinion_base_radius_mm=pair.pinion.base_radius_mm,
         gear_base_radius_mm=pair.gear.base_radius_mm,
-        backlash_um=_pick(who, "backlash_um", BACKLASHES_UM),
         mean_stiffness_n_per_um=mesh_stiffness(pair).mean / 1e6,
         pinion_torque_nm=0.0,
-        pinion_speed_rpm=1.0,
         transmission_error_um=0.0,
         damping_n_s_per_m=0.0,
+        **_chosen(student_id, "backlash_um"),
     )
-    return blank.with_oscillator(osc)
+    return blank.with_oscillator(personal_oscillator(student_id))
 
 
-def _pick(student_id: str, name: str, choices: tuple[Choice, ...]) -> Choice:
-    """One of `choices`, the same on every machine and with every version of every package."""
-    digest = hashlib.sha256(f"gearpair/{name}/{student_id}".encode()).digest()
-    return choices[int.from_bytes(digest[:8], "big") % len(choices)]
+def _chosen(student_id: str, *names: str) -> dict[str, Any]:
+    """One of the choices of each name, the same on every machine and with every version of every package."""
+    who = check_student_id(student_id)
+    digests = {name: hashlib.sha256(f"gearpair/{name}/{who}".encode()).digest() for name in names}
+    return {name: CHOICES[name][int.from_bytes(d[:8], "big") % len(CHOICES[name])] for name, d in digests.items()}
 
 
 def _ring_inertia(gear: SpurGear, face_width_mm: float) -> float:

@@ -30,11 +30,8 @@ class GearBlank:
         Radial thickness of the hub, outside the bore.
     density_kg_m3 : float
         Steel's unless given.
-
-    Raises
-    ------
-    ValueError
-        Naming the parameter, its value and the allowed range.
+    added_inertia_kg_m2 : float
+        Of what turns rigidly with the gear: shaft, coupling, motor.
 
     Examples
     --------
@@ -49,10 +46,12 @@ class GearBlank:
     web_mm: float | None = None
     hub_mm: float = 0.0
     density_kg_m3: float = STEEL_KG_M3
+    added_inertia_kg_m2: float = 0.0
 
     def __post_init__(self) -> None:
         check_number("density_kg_m3", self.density_kg_m3, above=0.0)
         check_number("hub_mm", self.hub_mm, at_least=0.0)
+        check_number("added_inertia_kg_m2", self.added_inertia_kg_m2, at_least=0.0)
         if (self.rim_mm is None) != (self.web_mm is None):
             raise ValueError(f"rim_mm and web_mm go together, got {self.rim_mm!r} and {self.web_mm!r}")
         if self.rim_mm is not None:
@@ -60,7 +59,7 @@ class GearBlank:
             check_number("web_mm", self.web_mm, above=0.0)
 
     def inertia_kg_m2(self, gear: SpurGear, face_width_mm: float) -> float:
-        """The moment of inertia about the gear's axis: body, rim, web and the teeth as they are cut.
+        """The moment of inertia about the gear's axis: body, rim, web, the teeth as they are cut, and what is added.
 
         Raises
         ------
@@ -78,15 +77,11 @@ class GearBlank:
                 )
             check_number("web_mm", self.web_mm, above=0.0, at_most=width)
             moment -= (width - self.web_mm) * 0.5 * math.pi * (outer**4 - inner**4)
-        return moment * self.density_kg_m3 * 1e-15  # mm^5 kg/m^3
+        return moment * self.density_kg_m3 * 1e-15 + self.added_inertia_kg_m2  # mm^5 kg/m^3
 
 
 def teeth_moment_mm4(gear: SpurGear) -> float:
     """The polar moment of area of all teeth above the root circle, about the gear's axis, in mm^4.
-
-    Parameters
-    ----------
-    gear : SpurGear
 
     Notes
     -----

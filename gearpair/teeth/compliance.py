@@ -54,11 +54,6 @@ def tooth_compliance(tooth: ToothProfile, roll: ArrayLike, poisson_ratio: float)
     poisson_ratio : float
         nu, dimensionless.
 
-    Returns
-    -------
-    ToothCompliance
-        Each times E b (dimensionless), shape of `roll`.
-
     Notes
     -----
     With the force F and the section's half thickness h (area ``2 h b``, second moment ``2 h^3 b / 3``)::
@@ -96,11 +91,6 @@ def tooth_compliance(tooth: ToothProfile, roll: ArrayLike, poisson_ratio: float)
 
 def hertz_compliance(poisson_ratio: float) -> float:
     """Compliance of one contact, both flanks together, times E b: ``4 (1 - nu^2) / pi``.
-
-    Parameters
-    ----------
-    poisson_ratio : float
-        nu, dimensionless.
 
     Notes
     -----
@@ -149,11 +139,6 @@ def foundation_compliance(tooth: ToothProfile, roll: ArrayLike) -> Array:
     roll : array_like
         Roll angles of the load in radians, any shape.
 
-    Returns
-    -------
-    ndarray
-        Times E b (dimensionless), shape of `roll`.
-
     Notes
     -----
     Sainsot, Velex and Duverger (2004): an elastic ring, plane stress, fixed at its bore, with the
@@ -173,7 +158,7 @@ def foundation_compliance(tooth: ToothProfile, roll: ArrayLike) -> Array:
     slope = np.asarray(roll, dtype=float) - tooth.gear.base_half_angle
     arm = tooth.base_radius / np.cos(slope) - tooth.clamp_radius
     ratio = arm / (2 * tooth.clamp_radius * tooth.clamp_half_angle)
-    linear, mixed, shear, thrust = foundation_coefficients(tooth.clamp_half_angle, _radius_ratio(tooth))
+    linear, mixed, shear, thrust = foundation_coefficients(tooth.clamp_half_angle, tooth.radius_ratio)
     return np.asarray(
         np.cos(slope) ** 2 * (linear * ratio**2 + mixed * ratio + shear * (1 + thrust * np.tan(slope) ** 2))
     )
@@ -188,8 +173,4 @@ def in_foundation_range(tooth: ToothProfile) -> bool:
     >>> in_foundation_range(ToothProfile(SpurPair().pinion))
     True
     """
-    return 1.4 <= _radius_ratio(tooth) <= 7.0 and 0.01 <= tooth.clamp_half_angle <= 0.12
-
-
-def _radius_ratio(tooth: ToothProfile) -> float:
-    return tooth.clamp_radius * tooth.gear.module_mm / tooth.gear.bore_mm
+    return 1.4 <= tooth.radius_ratio <= 7.0 and 0.01 <= tooth.clamp_half_angle <= 0.12

@@ -74,10 +74,6 @@ class FiniteElementBody:
 def finite_element_bodies() -> dict[str, FiniteElementBody]:
     """The stored bodies by name.
 
-    Returns
-    -------
-    dict of str to FiniteElementBody
-
     Examples
     --------
     >>> bodies = finite_element_bodies()
@@ -117,11 +113,6 @@ def double_contact_stiffness(
     -------
     phase, stiffness : ndarray, shape (5,)
         Fractions of the mesh period inside the zone of double contact; stiffness over E b (dimensionless).
-
-    Raises
-    ------
-    ValueError
-        For a body without stored neighbours.
 
     Examples
     --------

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.polynomial import Legendre
@@ -22,7 +22,7 @@ from gearpair.teeth.tooth_profile import ROOTS, Root, ToothProfile
 
 Array = NDArray[np.float64]
 Coupling = Literal["summed", "ring"]
-COUPLINGS = ("summed", "ring")
+COUPLINGS = get_args(Coupling)
 _NODES, _WEIGHTS = leggauss(24)
 
 
@@ -133,11 +133,6 @@ class MeshStiffness:
         StiffnessWave
             Each level is the curve's mean over its interval, over the mean of the period (dimensionless).
 
-        Raises
-        ------
-        ValueError
-            When there are fewer levels than zones.
-
         Examples
         --------
         >>> wave = mesh_stiffness(SpurPair()).wave(40)
@@ -179,7 +174,7 @@ def mesh_stiffness(
     coupling : {"summed", "ring"}
         ``"summed"``: the pairs in contact are springs side by side, as in most of the literature; each has its
         own gear body. ``"ring"``: they share their bodies. A load on one tooth also moves its neighbours'
-        feet, by `ring_compliance` (plane elasticity of a ring fixed at its bore).
+        feet, by `ring_compliance` (plane elasticity of a ring fixed at its bore); needs `foundation`.
     n_phases : int
         Samples over the mesh period, at least 2.
 
@@ -187,11 +182,6 @@ def mesh_stiffness(
     -------
     MeshStiffness
         Samples, means and staircases; N/m.
-
-    Raises
-    ------
-    ValueError
-        An unknown choice, too few phases, or ring coupling of rigid bodies.
 
     Notes
     -----
@@ -293,7 +283,7 @@ class _Model:
         reach = math.floor(self.pair.contact_ratio) + 1
         return {
             who: ring_compliance(
-                tooth.clamp_radius * tooth.gear.module_mm / tooth.gear.bore_mm,
+                tooth.radius_ratio,
                 tooth.clamp_half_angle,
                 2 * math.pi / tooth.gear.teeth * np.arange(reach),
                 self.pair.poisson_ratio,
@@ -322,9 +312,8 @@ class _Model:
 
     def outside_fit(self) -> tuple[str, ...]:
         return tuple(
-            f"the {who}'s theta_f = {tooth.clamp_half_angle:.3f} and h = "
-            f"{tooth.clamp_radius * tooth.gear.module_mm / tooth.gear.bore_mm:.2f} are outside the range that the "
-            "foundation formula was fitted for: theta_f from 0.01 to 0.12, h from 1.4 to 7"
+            f"the {who}'s theta_f = {tooth.clamp_half_angle:.3f} and h = {tooth.radius_ratio:.2f} are outside the "
+            "range that the foundation formula was fitted for: theta_f from 0.01 to 0.12, h from 1.4 to 7"
             for who, tooth in self.teeth.items()
             if not in_foundation_range(tooth)
         )

@@ -6,11 +6,21 @@ import dataclasses
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal, get_args
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_choice, check_count, check_fields, check_number
 
+Backlash = Literal["normal", "circumferential", "thickness"]
+BACKLASHES = get_args(Backlash)
 _ROUNDING = 1e-12
+LIMITS: dict[str, dict[str, float]] = {
+    **dict.fromkeys(("module_mm", "face_width_mm", "addendum", "clearance", "bore_ratio"), {"above": 0.0}),
+    "youngs_modulus_gpa": {"above": 0.0},
+    "pressure_angle_deg": {"above": 0.0, "below": 90.0},
+    "poisson_ratio": {"above": 0.0, "below": 0.5},
+    **dict.fromkeys(("tip_shortening", "tip_radius"), {"at_least": 0.0}),
+    **dict.fromkeys(("pinion_shift", "gear_shift"), {}),
+}
 
 
 def _involute(angle: float) -> float:
@@ -155,23 +165,9 @@ class SpurPair:
     tip_shortening: float = 0.0
 
     def __post_init__(self) -> None:
-        numbers: dict[str, float | None] = {
-            name: check_number(name, getattr(self, name), above=0.0)
-            for name in ("module_mm", "face_width_mm", "addendum", "clearance", "bore_ratio", "youngs_modulus_gpa")
-        }
         for name in ("pinion_teeth", "gear_teeth"):
-            numbers[name] = check_count(name, getattr(self, name), at_least=3)
-        for name in ("pinion_shift", "gear_shift"):
-            numbers[name] = check_number(name, getattr(self, name))
-        numbers["pressure_angle_deg"] = check_number(
-            "pressure_angle_deg", self.pressure_angle_deg, above=0.0, below=90.0
-        )
-        numbers["poisson_ratio"] = check_number("poisson_ratio", self.poisson_ratio, above=0.0, below=0.5)
-        numbers["tip_shortening"] = check_number("tip_shortening", self.tip_shortening, at_least=0.0)
-        if self.tip_radius is not None:
-            numbers["tip_radius"] = check_number("tip_radius", self.tip_radius, at_least=0.0)
-        for name, value in numbers.items():
-            object.__setattr__(self, name, value)
+            object.__setattr__(self, name, check_count(name, getattr(self, name), at_least=3))
+        check_fields(self, **LIMITS)
         self._check_rack()
         for who, gear in (("pinion", self.pinion), ("gear", self.gear)):
             self._check_gear(who, gear)
@@ -236,6 +232,31 @@ class SpurPair:
         """
         reference = (self.pinion_teeth + self.gear_teeth) / 2
         return self.pinion_shift + self.gear_shift - (self.centre_distance_mm / self.module_mm - reference)
+
+    def normal_backlash_um(self, backlash_um: float, backlash: Backlash = "normal") -> float:
+        """The whole backlash along the line of action, j_bn, from any of three statements of it.
+
+        Parameters
+        ----------
+        backlash_um : float
+            As stated, in micrometres.
+        backlash : {"normal", "circumferential", "thickness"}
+            ``"normal"``: j_bn itself. ``"circumferential"``: j_wt, on the working pitch circles,
+            ``j_bn = j_wt cos(alpha_w)``. ``"thickness"``: what both gears' teeth are thinner than without backlash, on
+            the reference circles, together, ``j_bn = (A_s1 + A_s2) cos(alpha)``.
+
+        Notes
+        -----
+        ISO 21771:2007, its relations between normal, circumferential and thickness allowances for spur gears.
+
+        Examples
+        --------
+        >>> round(SpurPair().normal_backlash_um(100.0, "circumferential"), 2)
+        93.97
+        """
+        check_choice("backlash", backlash, BACKLASHES)
+        angle = {"circumferential": self.working_pressure_angle, "thickness": self.pressure_angle}.get(backlash, 0.0)
+        return check_number("backlash_um", backlash_um, above=0.0) * math.cos(angle)
 
     @cached_property
     def pinion(self) -> SpurGear:

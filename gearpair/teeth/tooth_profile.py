@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,7 +19,7 @@ from gearpair.teeth.spurpair import SpurGear
 
 Array = NDArray[np.float64]
 Root = Literal["trochoid", "straight", "base_circle"]
-ROOTS = ("trochoid", "straight", "base_circle")
+ROOTS = get_args(Root)
 
 
 @dataclass(frozen=True)
@@ -35,11 +35,6 @@ class ToothProfile:
         ``"straight"``: lines parallel to the tooth's centre line from the base circle down to the root
         circle (Liang, Zuo and Patel 2014). ``"base_circle"``: nothing below the base circle, where the
         tooth is clamped (the early papers, Yang and Lin 1987).
-
-    Raises
-    ------
-    ValueError
-        An unknown root.
 
     Notes
     -----
@@ -76,6 +71,11 @@ class ToothProfile:
         if self.root == "base_circle":
             return max(self.base_radius, self.root_radius)
         return self.root_radius
+
+    @property
+    def radius_ratio(self) -> float:
+        """h: that circle over the bore."""
+        return self.clamp_radius * self.gear.module_mm / self.gear.bore_mm
 
     @property
     def clamp_half_angle(self) -> float:
@@ -125,15 +125,7 @@ class ToothProfile:
     def fillet(self, fraction: ArrayLike) -> tuple[Array, Array, Array, Array]:
         """The root curve, from the clamp (fraction 0) to the involute (fraction 1).
 
-        Parameters
-        ----------
-        fraction : array_like
-            Numbers from 0 to 1, any shape.
-
-        Returns
-        -------
-        y, h, dy, dh : ndarray
-            Coordinates in modules, and their derivatives by the fraction.
+        Returns what `involute` does, with derivatives by the fraction.
 
         Notes
         -----

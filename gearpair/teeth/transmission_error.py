@@ -19,20 +19,15 @@ def tip_relief(mesh: MeshStiffness, pinion_um: float, gear_um: float, length: fl
     ----------
     mesh : MeshStiffness
     pinion_um, gear_um : float
-        Taken off normal to the flank at the tip, in micrometres. The gear's tip is in contact at the start of the
-        path, the pinion's at its end.
+        Taken off normal to the flank at the tip, in micrometres, at least 0. The gear's tip is in contact at the
+        start of the path, the pinion's at its end.
     length : float
-        From the tip to where the relief begins, along the line of action in base pitches.
+        From the tip to where the relief begins, along the line of action in base pitches; at most the contact ratio.
 
     Returns
     -------
     ndarray, shape of ``mesh.path``
         Micrometres, at least 0.
-
-    Raises
-    ------
-    ValueError
-        For an amount below 0, or a length that is not above 0 and at most the contact ratio.
 
     Examples
     --------
@@ -65,11 +60,6 @@ def profile_error(mesh: MeshStiffness, deviation_um: ArrayLike, *, loaded: bool 
     -------
     ndarray, shape of ``mesh.phase``
         Micrometres, positive where the pinion has to turn further.
-
-    Raises
-    ------
-    ValueError
-        For a deviation that is not of the path's shape, or not finite.
 
     Notes
     -----
@@ -116,11 +106,6 @@ def error_harmonics(error_um: ArrayLike, n: int, *, n_periods: int = 1) -> tuple
     tuple of Harmonic
         Orders 1 to n: amplitude in the samples' unit, phase of ``amplitude sin(order theta + phase)``. The mean is left
         out: it moves the teeth and excites nothing.
-
-    Raises
-    ------
-    ValueError
-        For samples that are not finite, or too few for `n`.
 
     Examples
     --------

@@ -106,8 +106,8 @@ def test_random_tables_repeat_with_their_seed_and_differ_without():
         (lambda: article.Hypothesis(phase=float("nan")), "phase must be"),
         (lambda: case.Protocol("sideways"), "seeding must be one of"),
         (lambda: case.Protocol("up", 0), "n_discarded must be"),
-        (lambda: case.axis("zeta", 3), "'mesh_frequency' or 'damping_ratio'"),
-        (lambda: article.SWAPPED.along("contact_ratio", [1.5]), "'mesh_frequency' or 'damping_ratio'"),
+        (lambda: case.axis("zeta", 3), "one of 'mesh_frequency', 'damping_ratio'"),
+        (lambda: article.SWAPPED.along("contact_ratio", [1.5]), "one of 'mesh_frequency', 'damping_ratio'"),
     ],
 )
 def test_bad_input_is_refused(make, message):

@@ -89,7 +89,7 @@ def test_data_cannot_be_changed():
 
 @pytest.mark.parametrize("call", [published.ranges, published.boundaries])
 def test_unknown_parameter(call):
-    with pytest.raises(ValueError, match="'mesh_frequency' or 'damping_ratio', got 'a'"):
+    with pytest.raises(ValueError, match="one of 'mesh_frequency', 'damping_ratio', got 'a'"):
         call("a")
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gearpair.article import published
-from gearpair.article.case.scoring import REACH, published_kind, published_motions, score
+from gearpair.article.case.scoring import FARTHEST, published_kind, published_motions, score
 from gearpair.motion import periodic
 
 PARAMETERS = ("mesh_frequency", "damping_ratio")
@@ -36,7 +36,7 @@ def test_a_shifted_boundary_costs_what_the_docstring_says(index, shift):
     cuts[index] += shift
     moved = score("mesh_frequency", *table("mesh_frequency", cuts))
     assert moved.agreement == pytest.approx(1.0 - abs(shift) / width, abs=1e-3)
-    assert moved.closeness == pytest.approx(1.0 - abs(shift) / (REACH * width) / len(cuts), abs=4e-3)
+    assert moved.closeness == pytest.approx(1.0 - abs(shift) / (FARTHEST * width) / len(cuts), abs=4e-3)
     assert moved.sequence == 1.0
     assert moved.matches[index].distance == pytest.approx(shift, abs=1e-3)
 

@@ -46,6 +46,7 @@ def test_chance_meets_what_the_widths_say():
     assert counts.max() <= 8
 
 
+@pytest.mark.slow
 def test_more_settings_meet_more_by_chance_and_never_less():
     few = [drawn([0.0] * 8)]
     many = few + [drawn(list(row)) for row in np.random.default_rng(0).uniform(-15, 15, (30, 8))]

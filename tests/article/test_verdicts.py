@@ -33,7 +33,7 @@ FAILS, NEARLY, HOLDS = verdicts.FAILS, verdicts.NEARLY, verdicts.HOLDS
 )
 def test_the_rule(printed, best, word):
     """What holds better as printed than in the best reading corrects nothing: it speaks against that reading."""
-    assert verdicts.judge(printed, best) == word
+    assert verdicts.verdict_word(printed, best) == word
     if NEARLY not in (printed, best):
         found = verdicts.both("F1", ["a", "b"], [printed == HOLDS, best == HOLDS], "a test")
         assert found == verdicts.Verdict("F1", "a", "b", word, "a test")
@@ -89,6 +89,7 @@ def changes():
     return {h: case.bifurcations_of(h) for h in (article.PRINTED, article.SWAPPED)}
 
 
+@pytest.mark.slow
 def test_the_named_bifurcations_of_the_swapped_reading(changes):
     """F2, F4, F6 and D4: flips of periods 1, 2 and 2, and a fold of period 3; F4 and D4 within 1 % of the axis."""
     named = {

@@ -251,6 +251,7 @@ def test_the_period_doubling_sequence_has_feigenbaums_ratio():
     assert gaps[2] / gaps[3] == pytest.approx(4.669, rel=0.01)
 
 
+@pytest.mark.slow
 def test_coexisting_orbits_are_those_that_starts_settle_on():
     """At frequencies between 0.7 and 1.05 the stable branches up to period 2 are the attractors of a grid of starts."""
     branches = gp.find_branches(BASELINE, "mesh_frequency", 0.7, 1.05, max_period=2, n_values=5)

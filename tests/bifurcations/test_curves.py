@@ -19,6 +19,7 @@ def tongue_flip():
     return branch.bifurcations[0]
 
 
+@pytest.mark.slow
 def test_a_tongue_in_damping_is_the_linear_theorys_from_edge_to_edge(tongue_flip):
     """Every point lies on mu = -1 of Hill's equation; the curve passes the tip and ends on the bound at both edges."""
     bounds = {"mesh_frequency": (1.5, 2.6), "damping_ratio": (0.01, 0.3)}
@@ -37,6 +38,7 @@ def test_a_tongue_in_damping_is_the_linear_theorys_from_edge_to_edge(tongue_flip
     assert not edges(CONTACT.replace(damping_ratio=1.02 * tip), -1.0, "mesh_frequency", 1.85, 2.05, 40)
 
 
+@pytest.mark.slow
 def test_a_tongue_in_contact_ratio_is_a_closed_curve(tongue_flip):
     """Towards contact ratios 1 and 2 the stiffness is constant and damping wins: the tongue is an island."""
     bounds = {"mesh_frequency": (1.0, 3.0), "contact_ratio": (1.01, 1.99)}

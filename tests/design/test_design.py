@@ -1,7 +1,5 @@
 """A real drive over its speeds: against hand calculation, exact theory, and the same motion in other units."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -37,7 +35,7 @@ def test_the_chart_is_the_dimensionless_motion_in_si_units(chart):
     """Every number of a run against `steady_state` at that speed and the scales of the drive."""
     unit_n, b = DRIVE.unit_force_n, DRIVE.half_backlash_m
     for i in (3, 28):
-        osc = dataclasses.replace(DRIVE, pinion_speed_rpm=float(SPEEDS[i])).oscillator()
+        osc = DRIVE.at_speed(float(SPEEDS[i])).oscillator()
         state = gp.steady_state(osc, 1.0 + osc.mean_force, 0.0)
         found, row = impact_measures(state), chart.sel(run="up").isel(speed=i)
         hz = 28 * SPEEDS[i] / 60.0
@@ -52,7 +50,7 @@ def test_the_chart_is_the_dimensionless_motion_in_si_units(chart):
 
 def test_the_dynamic_transmission_error_is_that_of_the_two_rotors():
     """r1 theta1 - r2 theta2 = x + e, so that without forces on it a rigid pair would follow e alone."""
-    osc = dataclasses.replace(DRIVE, pinion_speed_rpm=7000.0).oscillator()
+    osc = DRIVE.at_speed(7000.0).oscillator()
     state = gp.steady_state(osc, 1.0 + osc.mean_force, 0.0)
     motion = gp.trajectory(osc, *map(float, state.points[0]), state.period, samples_per_period=4096)
     error = osc.error_amplitude * np.sin(osc.mesh_frequency * motion.tau[:-1] + osc.error_phase)
@@ -67,6 +65,7 @@ def test_one_pair_of_teeth_carries_at_most_the_mesh_force(chart):
     assert np.all(chart.tooth_force > 0.3 * chart.mesh_force)
 
 
+@pytest.mark.slow
 def test_jumps_are_folds_located_by_continuation(chart):
     """A finer chart finds the same speeds, which lie on neither's grid; there a multiplier is 1."""
     assert chart.jump_kind.values.tolist() == ["fold", "fold"]
@@ -175,15 +174,16 @@ def test_iso_factor_by_hand():
 
 
 def test_iso_light_load_lowers_the_resonance_range():
-    light = dataclasses.replace(DRIVE, pinion_torque_nm=42.0 * 25.0 * 25.0 * 1e-3)  # 25 N/mm
+    light = DRIVE.replace(pinion_torque_nm=42.0 * 25.0 * 25.0 * 1e-3)  # 25 N/mm
     iso = iso_dynamic_factor(light, [100.0], base_pitch_um=8.0, profile_um=6.0)
     assert iso.specific_load_n_per_mm == pytest.approx(25.0)
     assert iso.lower_limit == pytest.approx(0.5 + 0.35 * 0.5)
 
 
+@pytest.mark.slow
 def test_backlash_changes_nothing_while_one_flank_alone_is_struck(chart):
     """The equation of one flank is homogeneous in X - 1, forces and errors: the width of the gap is not in it."""
-    wide = dataclasses.replace(DRIVE, backlash_um=160.0)
+    wide = DRIVE.replace(backlash_um=160.0)
     other = speed_chart(wide, SPEEDS, n_starts=0)
     assert np.allclose(other.mesh_force.values[:2], chart.mesh_force.values[:2], rtol=1e-8)
     assert np.allclose(other.time_apart.values[:2], chart.time_apart.values[:2], atol=1e-8)
@@ -192,11 +192,12 @@ def test_backlash_changes_nothing_while_one_flank_alone_is_struck(chart):
 # Sensitivity and rattle
 
 
+@pytest.mark.slow
 def test_sensitivity_is_the_chart_of_the_changed_drive(chart):
     ranges = {"damping_ratio": (0.03, 0.1), "pinion_torque_nm": (60.0, 240.0), "addendum": (0.95, 1.05)}
     found = sensitivity(DRIVE, SPEEDS, ranges)
     assert float(found.base_dynamic_factor) == pytest.approx(chart.dynamic_factor.values[:2].max(), rel=1e-9)
-    damped = dataclasses.replace(DRIVE, damping_n_s_per_m=0.1 * DRIVE.critical_damping_n_s_per_m)
+    damped = DRIVE.replace(damping_n_s_per_m=0.1 * DRIVE.critical_damping_n_s_per_m)
     expected = speed_chart(damped, SPEEDS, n_starts=0)
     there = found.sel(change="damping_ratio", end="high")
     assert float(there.dynamic_factor) == pytest.approx(expected.dynamic_factor.values.max(), rel=1e-9)
@@ -256,13 +257,11 @@ def test_the_idle_oscillator_is_the_gear_behind_a_swinging_pinion():
         (lambda: sensitivity(DRIVE, SPEEDS, {"colour": (1.0, 2.0)}), "unknown name 'colour'; what can be changed is"),
         (lambda: sensitivity(DRIVE, SPEEDS, {"backlash_um": (1.0,)}), "the range of backlash_um must be a low and a"),
         (
-            lambda: iso_dynamic_factor(dataclasses.replace(DRIVE, mesh=None), [1.0], base_pitch_um=1.0, profile_um=1.0),
+            lambda: iso_dynamic_factor(DRIVE.replace(mesh=None), [1.0], base_pitch_um=1.0, profile_um=1.0),
             "drive must come from GearDrive.from_pair",
         ),
         (
-            lambda: iso_dynamic_factor(
-                dataclasses.replace(DRIVE, pinion_torque_nm=0.0), [1.0], base_pitch_um=1.0, profile_um=1.0
-            ),
+            lambda: iso_dynamic_factor(DRIVE.replace(pinion_torque_nm=0.0), [1.0], base_pitch_um=1.0, profile_um=1.0),
             "pinion_torque_nm must not be 0",
         ),
         (lambda: idle_rattle(DRIVE, SPEEDS, order=2.0, pinion_swing_deg=0.1, drag_torque_nm=0.0), "drag_torque_nm"),

@@ -102,6 +102,7 @@ def test_a_wrong_label_is_noticed():
     assert compare(Case("honest", osc), 100, seed=3).changed == 0
 
 
+@pytest.mark.slow
 def test_basins_do_not_depend_on_threads_or_order(monkeypatch):
     osc = BASELINE.replace(mesh_frequency=0.9)
     x, v = np.linspace(-3.0, 3.0, 24), np.linspace(-2.0, 2.0, 16)

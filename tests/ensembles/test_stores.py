@@ -108,6 +108,7 @@ if __name__ == "__main__":
 
 
 @pytest.mark.parametrize("victim", ["worker", "all"])
+@pytest.mark.slow
 def test_a_cluster_gives_the_same_bits_though_one_is_killed(tmp_path, victim):
     """SIGKILL to a worker, or to all of them and the program; the call then goes on where it was."""
     pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
@@ -140,6 +141,7 @@ def kill_on_the_way(script, path, victim):
     run.wait()
 
 
+@pytest.mark.slow
 def test_again_and_again_a_worker_is_killed_on_the_way(tmp_path, monkeypatch):
     """SIGKILL to one of three workers as soon as a block is written, `KILLS` planes in turn: no bit differs."""
     distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")

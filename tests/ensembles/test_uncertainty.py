@@ -66,6 +66,7 @@ def test_basin_entropy_leaves_out_boxes_that_do_not_fit():
     assert ensembles.basin_entropy(plane, box=3).entropy == 0.0
 
 
+@pytest.mark.slow
 def test_basin_stability_agrees_with_a_fine_grid_within_its_errors_and_repeats_with_its_seed():
     osc = gp.Oscillator(mesh_frequency=0.9)
     grid = gp.basins(osc, np.linspace(-4, 4, 61), np.linspace(-3, 3, 61))

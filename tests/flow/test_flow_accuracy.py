@@ -49,6 +49,7 @@ def test_random_oscillators_against_seventy_digits(seed):
 
 
 @pytest.mark.parametrize("case", DEGENERATE, ids=DEGENERATE)
+@pytest.mark.slow
 def test_degenerate_cases_against_seventy_digits(case):
     """1e-11 is the promise; the series has no cancellation there, so that we ask for a hundredth of that."""
     osc, x, v = DEGENERATE[case]

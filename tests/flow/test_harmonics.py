@@ -22,6 +22,7 @@ def with_harmonics(rng, osc):
 
 
 @pytest.mark.parametrize("seed", range(3))
+@pytest.mark.slow
 def test_random_oscillators_against_seventy_digits(seed):
     """The same bound as for one harmonic, and the monodromy with it."""
     rng = np.random.default_rng(300 + seed)
@@ -43,6 +44,7 @@ def test_random_oscillators_against_seventy_digits(seed):
 
 
 @pytest.mark.parametrize("case", list(DEGENERATE)[::4])
+@pytest.mark.slow
 def test_degenerate_cases_against_seventy_digits(case):
     osc, x, v = DEGENERATE[case]
     osc = osc.replace(harmonics=FIVE)
@@ -51,6 +53,7 @@ def test_degenerate_cases_against_seventy_digits(case):
 
 
 @pytest.mark.parametrize("seed", range(4))
+@pytest.mark.slow
 def test_random_oscillators_against_dop853(seed):
     rng = np.random.default_rng(400 + seed)
     for _ in range(10):
@@ -61,6 +64,7 @@ def test_random_oscillators_against_dop853(seed):
         assert np.abs(np.subtract(end, expected)).max() <= 1e-10 * max(1.0, *np.abs(expected)), (osc, x, v)
 
 
+@pytest.mark.slow
 def test_impacts_are_where_seventy_digits_put_them():
     expected = mpmath_period(LOADED, 1.0, 0.2).crossings
     found = gp.trajectory(LOADED, 1.0, 0.2, 1).impacts
@@ -71,6 +75,7 @@ def test_impacts_are_where_seventy_digits_put_them():
 
 @pytest.mark.parametrize("x, v", [(1.0, 0.0), (-1.0, 0.0)])
 @pytest.mark.parametrize("phase", [0.5 * np.pi, -0.5 * np.pi])
+@pytest.mark.slow
 def test_a_start_at_rest_on_the_boundary_is_decided_by_the_whole_force(x, v, phase):
     osc = gp.Oscillator(mean_force=0.1, error_amplitude=0.1, harmonics=[(3, 0.4, phase)])
     expected = mpmath_period(osc, x, v)
@@ -90,6 +95,7 @@ def test_a_first_harmonic_written_as_the_second_of_half_the_frequency():
     assert np.allclose(there, here, rtol=0.0, atol=1e-13)
 
 
+@pytest.mark.slow
 def test_continuation_and_sweeps_see_them():
     """A branch's orbits are fixed points of 70 digits; a sweep settles on them."""
     osc = LOADED.replace(mesh_frequency=1.7)
@@ -115,7 +121,7 @@ def test_integrators_honour_them():
 
 
 def test_a_block_takes_its_cells_in_one_step():
-    """The cells of five harmonics are narrower, the blocks that the march takes are those of one."""
+    """The cells of five harmonics are narrower, the blocks that the walk takes are those of one."""
     many, one = LOADED.cells, gp.Oscillator().cells
     assert len(many.level) > 2 * len(one.level) and len(many.block_width) == len(one.block_width) == len(one.level)
     assert np.allclose(many.block_width, one.block_width, rtol=1e-15)

@@ -98,6 +98,7 @@ def test_turned_round_the_gear_pair_moves_the_other_way(osc, start):
 
 @MANY
 @given(OSCILLATORS, st.floats(-0.5, 0.5), st.floats(-0.5, 0.5), st.sampled_from([1, -1]))
+@pytest.mark.slow
 def test_always_in_contact_it_is_the_linear_oscillator(osc, x, v, side):
     """A load that no motion here can overcome; the map is then affine, and scipy's matrix exponential gives it."""
     osc = osc.replace(mean_force=side * 60.0)

@@ -9,6 +9,7 @@ import pytest
 
 from tests.support import ROOT
 
+pytestmark = pytest.mark.slow
 FLOW = ROOT / "gearpair" / "_flow"
 # `count_cells` stands in cells.py; the rate it divides by comes from closed_form.py.
 COUNT = """

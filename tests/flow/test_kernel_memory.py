@@ -29,7 +29,7 @@ def branch(osc):
 
 
 WORK = {
-    "a march": lambda osc: gp.stroboscopic_map(osc, [0.3, 2.0], [0.0, 0.1], 5),
+    "a walk": lambda osc: gp.stroboscopic_map(osc, [0.3, 2.0], [0.0, 0.1], 5),
     "a trajectory": lambda osc: gp.trajectory(osc, 0.3, 0.0, 4),
     "a settled motion": lambda osc: gp.steady_state(osc),
     "a plane of starts": lambda osc: gp.basins(osc, np.linspace(-3.0, 3.0, 8), [-1.0, 0.0, 1.0]),

@@ -206,7 +206,7 @@ def test_basins_and_impact_states_colour_every_start(plane):
 
 def test_a_second_attractor_of_a_kind_is_paler(plane):
     twice = plane.isel(attractor_number=[0, 0])
-    first, second = plotting.planes.attractor_colours(twice)
+    first, second = plotting.maps.attractor_colours(twice)
     assert first == pytest.approx(to_rgb(plotting.motion_colour(periodic(1))))
     assert sum(second) > sum(first)
     named = plotting.basins(twice).get_legend().get_patches()

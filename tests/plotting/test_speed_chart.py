@@ -45,7 +45,7 @@ def test_the_strips_show_the_impact_state_of_each_run(chart):
     ax = plotting.dynamic_factors(chart)
     colours = [matplotlib.colors.to_hex(patch.get_facecolor()).upper() for patch in ax.patches]
     states = [*chart.impact_state.sel(run="up").values, *chart.impact_state.sel(run="down").values]
-    assert colours == [plotting.planes.IMPACT_COLOURS[str(state)] for state in states]
+    assert colours == [plotting.maps.IMPACT_COLOURS[str(state)] for state in states]
 
 
 def test_tooth_loads_in_their_units(chart):

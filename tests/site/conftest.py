@@ -2,7 +2,7 @@
 
 import pytest
 
-from gearpair.study.browser import chromium
+from tools.browser import chromium
 
 
 @pytest.fixture(scope="session")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
@@ -9,11 +10,9 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 from urllib.parse import unquote, urlsplit
 
-import axe_playwright_python
+from tools.browser import serve
 
-from gearpair.study.browser import serve
-
-AXE = next(iter(axe_playwright_python.__path__)) + "/axe.min.js"
+AXE = Path(sys.prefix) / "node_modules" / "axe-core" / "axe.min.js"  # from npm, by `make check-site`
 PHONE = {"width": 360, "height": 740}
 DESK = {"width": 1280, "height": 900}
 SHARED = (".js", ".css", ".woff", ".woff2")  # below _static: fetched once for all pages

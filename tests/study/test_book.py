@@ -39,6 +39,7 @@ def site(root):
     return (root / "_build" / "html" / "index.html").read_text()
 
 
+@pytest.mark.slow
 def test_a_good_build_takes_the_place_of_the_last(built_before):
     assert main(["--root", str(built_before), "book"]) == 0
     assert LAST_GOOD not in site(built_before)
@@ -52,6 +53,7 @@ def test_a_good_build_takes_the_place_of_the_last(built_before):
     assert [cell.outputs[0].text for cell in rerun.cells if cell.get("outputs")] == ["1.0035\n"]
 
 
+@pytest.mark.slow
 def test_a_failed_chapter_is_named_and_the_last_book_stays(built_before, capsys):
     write_notebook(built_before / "notebooks" / "small.ipynb", MEAN, "gp.StiffnessWave((0.0, 0.0), (1.0, 1.0))")
     assert main(["--root", str(built_before), "book"]) == 1
@@ -62,6 +64,7 @@ def test_a_failed_chapter_is_named_and_the_last_book_stays(built_before, capsys)
     assert site(built_before) == LAST_GOOD
 
 
+@pytest.mark.slow
 def test_an_error_that_a_chapter_expects_still_stops_the_build(built_before, capsys):
     path = built_before / "notebooks" / "small.ipynb"
     write_notebook(path, "raise RuntimeError('hidden')")
@@ -73,6 +76,7 @@ def test_an_error_that_a_chapter_expects_still_stops_the_build(built_before, cap
     assert site(built_before) == LAST_GOOD
 
 
+@pytest.mark.slow
 def test_a_warning_of_the_page_builder_is_an_error(built_before, capfd):
     (built_before / "book" / "introduction.md").write_text("# A small book\n\nSee {ref}`no-such-place`.\n")
     assert main(["--root", str(built_before), "book"]) == 1
@@ -82,6 +86,7 @@ def test_a_warning_of_the_page_builder_is_an_error(built_before, capfd):
     assert site(built_before) == LAST_GOOD
 
 
+@pytest.mark.slow
 def test_a_page_to_hand_around_holds_all_that_it_shows(small_book, tmp_path):
     figure = "import matplotlib.pyplot as plt\nplt.plot([0, 1])\nplt.show()"
     path = write_notebook(small_book / "notebooks" / "small.ipynb", MEAN, figure)

@@ -4,12 +4,14 @@ import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import nbformat
 import pytest
 
 from gearpair.study.cache import LIBRARY, Cache, content_key, library_digest
-from gearpair.study.chapters import read_chapter
+from gearpair.study.chapters import Chapter, read_chapter
+from gearpair.study.side_by_side import Job, longest_first
 from tests.support.notebooks import MEAN, write_notebook
 
 
@@ -77,6 +79,18 @@ def test_a_broken_entry_is_as_good_as_none(tmp_path):
     assert kept.read(tmp_path / "small-1.ipynb") is None
 
 
+def test_the_longest_begins_first(tmp_path):
+    """By what a chapter took here; where it was never run, by what its notebook tells."""
+    kept = Cache(tmp_path)
+    chapters = [Chapter(Path(f"{name}.ipynb"), name, (), {}, seconds) for name, seconds in (("a", 20.0), ("b", 30.0))]
+    jobs = [Job(chapter, tmp_path / chapter.name) for chapter in chapters]
+    assert [job.page.name for job in longest_first(jobs, kept)] == ["b", "a"]
+    notebook = nbformat.v4.new_notebook(metadata={"gearpair": {"seconds": 40.0, "parameters": {}}})
+    nbformat.write(notebook, tmp_path / "a-0.ipynb")
+    assert [job.page.name for job in longest_first(jobs, kept)] == ["a", "b"]
+
+
+@pytest.mark.slow
 def test_only_what_has_changed_is_made_again(small_book, library):
     """Three builds with a library of their own: the first, one with nothing changed, one with another library."""
     stiffness = library / "stiffness.py"

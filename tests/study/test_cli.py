@@ -9,6 +9,7 @@ from gearpair.study.chapters import Chapter, Parameter
 from gearpair.study.cli import main
 from gearpair.study.estimate import work_ratio
 from tests.support.notebooks import MEAN, write_notebook
+from tools.accept import accept
 
 
 def run(root, *words):
@@ -23,6 +24,7 @@ def test_chapters_are_listed_with_their_schema(small_book, capsys):
 
 
 @pytest.mark.parametrize("words", [("-p", "a", "1e-1"), ("--parameter", "a", "0.1")])
+@pytest.mark.slow
 def test_run_puts_the_value_in_place_of_the_default(small_book, tmp_path, capsys, words):
     output = tmp_path / "out.ipynb"
     assert run(small_book, "run", "small", *words, "-o", str(output)) == 0
@@ -65,6 +67,7 @@ def test_a_value_may_be_negative(small_book, tmp_path):
     assert printed == "0.7995\n"  # 1 - 0.1 * 0.68 - 0.414 * 0.32 = 0.79952
 
 
+@pytest.mark.slow
 def test_a_value_out_of_range_stops_the_run_with_the_librarys_sentence(small_book, tmp_path, capsys):
     output = tmp_path / "out.ipynb"
     assert run(small_book, "run", "small", "-p", "a", "-1.5", "-o", str(output)) == 1
@@ -76,6 +79,7 @@ def test_a_value_out_of_range_stops_the_run_with_the_librarys_sentence(small_boo
     assert sorted(path.name for path in tmp_path.iterdir()) == ["checkout"]
 
 
+@pytest.mark.slow
 def test_parameters_from_a_file_go_behind_those_of_the_command_line(small_book, tmp_path):
     output, file = tmp_path / "out.ipynb", tmp_path / "mine.yml"
     file.write_text("a: 3\n")
@@ -101,6 +105,7 @@ STARTED = "chapter small failed in code cell 2 (cell 3 of the notebook): Runtime
         (["-f", "mine.yml", "-p", "lowest", "1"], STARTED),
     ],
 )
+@pytest.mark.slow
 def test_ranges_and_relations_are_checked_before_a_kernel_starts(
     small_book, tmp_path, monkeypatch, capsys, words, sentence
 ):
@@ -123,14 +128,19 @@ def test_ranges_and_relations_are_checked_before_a_kernel_starts(
         ({"n_x": 20}, 2.0),
         ({"n_x": 20, "n_v": 30}, 6.0),
         ({"n_values": 300}, 3.0),
+        ({"n_frequency": 30}, 3.0),
+        ({"n_starts": 400, "n_speeds": 30}, 12.0),
+        ({"n_starts": 400, "n_x": 20}, 4.0),  # the part of the chapter that grows most
     ],
 )
 def test_work_is_counted_in_motions_mesh_periods_and_their_length(changed, ratio):
     names = {"n_x": 10, "n_v": 10, "n_values": 100, "n_transient": 100, "mesh_frequency": 0.7}
+    names |= {"n_frequency": 10, "n_starts": 100, "n_speeds": 10}
     chapter = Chapter(Path("small.ipynb"), "", tuple(Parameter(name, "", value, "") for name, value in names.items()))
     assert work_ratio(chapter, changed) == pytest.approx(ratio)
 
 
+@pytest.mark.slow
 def test_what_will_take_long_is_told_before_it_starts(small_book, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     cache = small_book / "_build" / "cache"
@@ -178,13 +188,14 @@ def test_help_exits_with_0(capsys):
     assert "-p, --parameter NAME VALUE" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_accept_stores_outputs_and_finds_nothing_to_do_the_second_time(small_book, capsys):
     figure = "import matplotlib.pyplot as plt, sys\nprint('noise', file=sys.stderr)\nplt.plot([0, 1])\nplt.show()"
     path = write_notebook(small_book / "notebooks" / "small.ipynb", MEAN, figure)
-    assert run(small_book, "accept") == 0
+    assert main(["--root", str(small_book)], run=accept) == 0
     assert "new outputs stored: small" in capsys.readouterr().out
     text = path.read_text()
-    assert run(small_book, "accept") == 0
+    assert main(["--root", str(small_book)], run=accept) == 0
     assert capsys.readouterr().out == "nothing changed\n"
     assert path.read_text() == text
     assert "0.9464" in text

@@ -76,6 +76,7 @@ def left(directory):
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+@pytest.mark.slow
 def test_a_stopped_run_stops_its_kernel_and_leaves_nothing(waiting, tmp_path, number):
     start, kernel = waiting
     run = start(3600)
@@ -89,6 +90,7 @@ def test_a_stopped_run_stops_its_kernel_and_leaves_nothing(waiting, tmp_path, nu
     until(lambda: not alive(pid))
 
 
+@pytest.mark.slow
 def test_a_stopped_build_stops_its_kernels_and_leaves_nothing(waiting, small_book):
     start, kernel = waiting
     run = start(3600, "book")
@@ -100,6 +102,7 @@ def test_a_stopped_build_stops_its_kernels_and_leaves_nothing(waiting, small_boo
     until(lambda: not alive(pid))
 
 
+@pytest.mark.slow
 def test_what_a_killed_run_left_is_cleared_by_the_next_of_the_same_output(waiting, tmp_path):
     start, kernel = waiting
     run = start(3600)
@@ -114,6 +117,7 @@ def test_what_a_killed_run_left_is_cleared_by_the_next_of_the_same_output(waitin
     assert left(tmp_path) == ["out.ipynb"]
 
 
+@pytest.mark.slow
 def test_two_runs_to_one_output_do_not_mix(waiting, tmp_path):
     start, kernel = waiting
     first = start(3600)
@@ -165,6 +169,7 @@ def test_a_place_that_cannot_be_written_to_is_named(tmp_path):
         pass
 
 
+@pytest.mark.slow
 def test_a_run_writes_nothing_into_the_checkout(small_book, tmp_path, monkeypatch):
     """So that a checkout that is read-only will do."""
     before = {path: path.stat().st_mtime_ns for path in sorted(small_book.rglob("*"))}

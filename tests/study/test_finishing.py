@@ -5,10 +5,10 @@ import pytest
 from PIL import Image
 
 from gearpair.study.book import Book
-from gearpair.study.browser import find_chromium
 from gearpair.study.errors import StudyError
 from gearpair.study.finishing import finish_site, mend
-from gearpair.study.pdf import one_document
+from tools.browser import find_chromium
+from tools.pdf import one_document
 
 THEBE = '<script>const THEBE_JS_URL = "https://example.org/thebe.js"; const other = 1</script>'
 X = r'<span class="math notranslate nohighlight">\(X\)</span>'
@@ -28,6 +28,10 @@ TOGGLE = "<script>var togglebuttonSelector = '.toggle';</script>"
         ('<link rel="preload" as="font" href="a.woff2" />\n<link rel="icon">', '<link rel="icon">'),
         ('<th style="x"></th><th>m</th>', '<td style="x"></td><th>m</th>'),
         ('<i id="search-input"><b id="search-input">', '<i id="search-input"><b id="search-field">'),
+        (
+            '<button class="btn search-button-field" title="Search" aria-label="Search" id="x">',
+            '<button class="btn search-button-field" title="Search" id="x">',
+        ),
         ("<i>Show code cell source</i><b>Hide code cell outputs</b>", "<i>Show the code</i><b>Hide the result</b>"),
         ('<section id="solution-content">a</section>', "<section>a</section>"),
         (

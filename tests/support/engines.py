@@ -11,8 +11,7 @@ from typing import Any
 
 import pytest
 
-from tests.browser import Browser
-from tests.explorer_pages import STATIC
+from tests.support.explorer_pages import STATIC, opened
 
 MODULES = STATIC / "explorer"
 NODE = """
@@ -37,17 +36,11 @@ def run_in_node(source: str, data: Any) -> Any:
     return json.loads(result.stdout)
 
 
-def run_in_chromium(source: str, data: Any) -> Any:
+def run_in_chromium(browser: Any, source: str, data: Any) -> Any:
     """The same in a page of a real browser."""
     with tempfile.TemporaryDirectory() as folder:
         page = Path(folder) / "page.html"
         load = (MODULES / "load.js").as_uri()
         page.write_text(f'<!DOCTYPE html><title>x</title><script src="{load}" data-part="motion" defer></script>')
-        with Browser(Path(folder) / "profile") as browser:
-            browser.open(page.as_uri())
-            answer = browser.run(f"JSON.stringify(({source})({json.dumps(data)}))")
-            assert not browser.errors
-            return json.loads(answer)
-
-
-ENGINES = {"node": run_in_node, "chromium": run_in_chromium}
+        with opened(browser) as go:
+            return json.loads(go(page.as_uri()).evaluate(f"JSON.stringify(({source})({json.dumps(data)}))"))

@@ -66,6 +66,7 @@ def test_result_is_consistent() -> None:
     assert curve == pytest.approx(result.stiffness_n_per_m, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_means_are_those_of_the_curve() -> None:
     result = mesh_stiffness(SpurPair(), coupling="ring", n_phases=100_000)
     assert result.mean == pytest.approx(result.stiffness_n_per_m.mean(), rel=1e-5)

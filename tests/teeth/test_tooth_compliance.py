@@ -93,6 +93,7 @@ def test_components_against_the_angle_form(teeth: int, root: str) -> None:
 
 @pytest.mark.parametrize("pair", [SpurPair(), SpurPair(20, 54, pinion_shift=0.3, gear_shift=-0.1, tip_radius=0.2)])
 @pytest.mark.parametrize("root", ["trochoid", "straight"])
+@pytest.mark.slow
 def test_components_against_the_coordinate_form(pair: SpurPair, root: str) -> None:
     for who in ("pinion", "gear"):
         tooth = ToothProfile(getattr(pair, who), root)

@@ -1,7 +1,7 @@
 // The mesh period of one oscillator cut into cells, with everything that does not depend on the state.
 //
 // On a cell spent in one region (coast-side contact -1, free flight 0, drive-side contact 1) the state at its end is
-// an affine function of the state at its start. The same as gearpair/_flow/cells.py.
+// an affine function of the state at its start. The cells of gearpair/_flow/cells.py for an error of one harmonic.
 gearpair.define("cells", ["closed_form"], function (closedForm) {
   const { DEGREE, TERMS, REACH, fastestRate, fillBasis, fourthDerivativeBound } = closedForm;
 

@@ -2,7 +2,7 @@
 //
 // The motion on the rest of a cell is a power series p(t), t from 0 to `end`. Three certificates, cheapest first: its
 // Bezier hull lies inside; it is monotone, so it leaves where its end value says; or certified steps, each the first
-// positive root of d + u h + m h^2 / 2 with m <= p''. The same as gearpair/_flow/event_search.py, where they are proved.
+// positive root of d + u h + m h^2 / 2 with m <= p''. Those of gearpair/_flow/event_search.py, where they are proved.
 gearpair.define("certified", ["closed_form"], function (closedForm) {
   const { TERMS, value, evaluate, evaluateJerk, fourthDerivativeBound } = closedForm;
   const MONOTONE = ((384 * Math.sqrt(3)) / 216 / 3) * 1.01;

@@ -4,7 +4,7 @@
 //     X'' + 2 zeta X' + kappa (X - s) = F_m + A sin(theta + Omega h),    A = F_ah Omega^2,
 // and its solution is linear in (X - s, X', F_m, A sin theta, A cos theta) at h = 0. No rate turns by more than
 // REACH over a cell, so the series has converged to below rounding at DEGREE: one formula for resonance, critical
-// damping and no damping alike. The same as gearpair/_flow/closed_form.py.
+// damping and no damping alike. As in gearpair/_flow/closed_form.py, less what higher harmonics add there.
 gearpair.define("closed_form", [], function () {
   const DEGREE = 15;
   const TERMS = DEGREE + 1;
@@ -12,7 +12,7 @@ gearpair.define("closed_form", [], function () {
   const SINE_SIGNS = [1, 0, -1, 0];
   const COSINE_SIGNS = [0, 1, 0, -1];
 
-  // What `evaluate` and `evaluateJerk` return: p, p', p'', p'''. One array, so that the march allocates nothing.
+  // What `evaluate` and `evaluateJerk` return: p, p', p'', p'''. One array, so that a walk allocates nothing.
   const value = new Float64Array(4);
 
   function fastestRate(kappa, zeta, omega) {

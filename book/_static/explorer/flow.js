@@ -1,7 +1,8 @@
-// The march: one oscillator's motion over whole mesh periods, cell by cell, event by event.
+// The walk: one oscillator's motion over whole mesh periods, cell by cell, event by event.
 //
 // A motion is { x, v, region } at the start of a mesh period; `walk` moves it on, and shows a visitor what it passes.
-// The same as gearpair/_flow/march.py.
+// The loop of gearpair/_flow/walk.py with the segments of segment.py, for an error of one harmonic: no blocks of cells.
+// What is gathered there by accumulators is gathered here by visitors.
 gearpair.define("flow", ["closed_form", "cells", "certified"], function (closedForm, tables, certified) {
   const { TERMS, value, evaluate, expand } = closedForm;
   const { XX, XV, X0, VX, VV, V0, SX, SV, S0, COLUMNS } = tables;

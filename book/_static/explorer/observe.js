@@ -1,5 +1,6 @@
-// What the march sees on its way: exact extremes of X, the largest mesh force, impacts and samples.
-// The extremes and the record are the same as in gearpair/_flow/observe.py.
+// What a walk sees on its way: exact extremes of X, the largest mesh force, impacts and samples.
+// The record is that of gearpair/_flow/records.py. The extremes are those of reach.py, which spares itself most searches
+// for turns by certificates; here every segment that may hold something new is searched.
 gearpair.define("observe", ["closed_form", "certified", "flow"], function (closedForm, certified, flow) {
   const { value, evaluate } = closedForm;
   const { nextTurn, leastStep } = certified;

@@ -1,5 +1,8 @@
 // The settled motion from one start: periodic, aperiodic (a resolved positive exponent), unsettled or escaped.
-// The same tests and tolerances as gearpair/_flow/settle.py.
+//
+// It is judged as in gearpair/_flow/settle.py, by the same tests and tolerances. Until then a motion is captured there as
+// soon as it enters a neighbourhood that none leaves; here when it has returned to RETURNED of a stable orbit, which is
+// the same orbit some time later.
 gearpair.define("settle", ["flow", "tangent", "observe"], function (flow, tangent, observe) {
   const { OK, ESCAPED, startAt, walk } = flow;
   const { walkTangent, newton, exponents, spectralRadius } = tangent;
@@ -25,7 +28,7 @@ gearpair.define("settle", ["flow", "tangent", "observe"], function (flow, tangen
     return Math.max(Math.abs(p.x - q.x), Math.abs(p.v - q.v)) / Math.max(1, Math.abs(q.x), Math.abs(q.v));
   }
 
-  // March until the motion returns to a stable orbit's neighbourhood: { status, orbit }, the orbit null where it did
+  // Walk until the motion returns to a stable orbit's neighbourhood: { status, orbit }, the orbit null where it did
   // not within `maxPeriod` periods.
   function findReturn(cells, motion, maxPeriod, closeness, capture) {
     const first = { x: motion.x, v: motion.v };

@@ -1,7 +1,8 @@
-// The variational flow along the march, Newton's method on the period map, Lyapunov exponents.
+// The variational flow along a walk, Newton's method on the period map, Lyapunov exponents.
 //
 // The force is continuous at X = +-1 and the stiffness switches at fixed times, so the variational flow has no jump:
-// its matrix is the product of the linear pieces' own. The same as gearpair/_flow/tangent.py.
+// its matrix is the product of the linear pieces' own. As in tangent.py, newton.py and observe.py of gearpair/_flow, but
+// that Newton's method gives up on no orbit for being unstable.
 gearpair.define("tangent", ["closed_form", "cells", "flow"], function (closedForm, tables, flow) {
   const { TERMS, value, evaluate } = closedForm;
   const { XX, XV, VX, VV, COLUMNS } = tables;
@@ -68,7 +69,7 @@ gearpair.define("tangent", ["closed_form", "cells", "flow"], function (closedFor
     return { converged: status === OK && small, x: best.x, v: best.v, monodromy: m };
   }
 
-  // March, turning the first column of `q` with the flow: { status, total }, the logarithm of its growth.
+  // Walk, turning the first column of `q` with the flow: { status, total }, the logarithm of its growth.
   function stretch(cells, motion, periods, q) {
     let total = 0;
     for (let i = 0; i < periods; i++) {

@@ -7,13 +7,11 @@ from gearpair.article.case.boundaries import (
     bifurcations_of,
     boundary_table,
     distance_from_bifurcations,
-    drawn_boundary,
     named_bifurcation,
-    nearest,
 )
 from gearpair.article.case.existence import STARTS, Reached, reached, shared_boundaries
 from gearpair.article.case.items import Evidence, judge_items
-from gearpair.article.case.scoring import Match, Score, axis, published_kind, published_motions, random_tables, score
+from gearpair.article.case.scoring import Match, Score, axis, published_motions, random_tables, score
 from gearpair.article.case.search import (
     TOLERANCES,
     asked_phase_table,
@@ -35,7 +33,7 @@ from gearpair.article.case.trials import (
     score_by_start,
 )
 from gearpair.article.case.two_rotors import two_rotor_difference
-from gearpair.article.case.verdicts import Verdict, count_verdicts, counter_evidence, judge, verdict_table
+from gearpair.article.case.verdicts import Verdict, count_verdicts, counter_evidence, verdict_table
 
 __all__ = [
     "Evidence",
@@ -59,14 +57,10 @@ __all__ = [
     "count_verdicts",
     "counter_evidence",
     "distance_from_bifurcations",
-    "drawn_boundary",
-    "judge",
     "judge_items",
     "most_met_by_chance",
     "named_bifurcation",
-    "nearest",
     "periods",
-    "published_kind",
     "published_motions",
     "random_tables",
     "ranking",

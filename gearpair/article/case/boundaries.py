@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from gearpair.article import published
-from gearpair.article.case.scoring import REACH, axis
+from gearpair.article.case.scoring import FARTHEST, axis
 from gearpair.article.case.trials import Trial
 from gearpair.article.published import Boundary
 from gearpair.article.readings import Hypothesis
@@ -66,10 +66,6 @@ def boundary_table(trials: Mapping[str, Sequence[Trial]], bifurcations: Mapping[
     bifurcations : mapping of str to sequence of Bifurcation
         By reading; the one of the kind that the article names, if within a tenth of the axis.
 
-    Returns
-    -------
-    Table
-
     Examples
     --------
     >>> from gearpair.article import SWAPPED
@@ -85,7 +81,7 @@ def boundary_table(trials: Mapping[str, Sequence[Trial]], bifurcations: Mapping[
         cells = ["–" if value is None else f"{value:.{digits}f}" for value in drawn]
         for each in bifurcations.values():
             b = named_bifurcation(boundary, each)
-            if b is None or abs(b.value - boundary.value) > REACH * (upper - lower):
+            if b is None or abs(b.value - boundary.value) > FARTHEST * (upper - lower):
                 cells.append("–")
             else:
                 cells.append(f"{b.kind} of period {b.period} ({b.value - boundary.value:+.{digits + 1}f})")
@@ -102,7 +98,6 @@ def distance_from_bifurcations(
     Parameters
     ----------
     parameter : {"mesh_frequency", "damping_ratio"}
-    bifurcations : iterable of Bifurcation
     n : int
         Random tables.
 
@@ -152,13 +147,8 @@ def bifurcations_of(hypothesis: Hypothesis, max_period: int = 3) -> list[Bifurca
 
     Parameters
     ----------
-    hypothesis : Hypothesis
     max_period : int
         The longest period followed.
-
-    Returns
-    -------
-    list of Bifurcation
 
     Examples
     --------

@@ -9,24 +9,25 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from gearpair._equality import equal_by_value
 from gearpair.article import published
-from gearpair.article.case.scoring import axis, published_kind, published_motions
-from gearpair.article.case.trials import MAX_PERIOD, by_levels
+from gearpair.article.case.scoring import axis, published_at, published_kind, published_motions
+from gearpair.article.case.trials import drawn_settings, followed
 from gearpair.article.readings import Hypothesis
 from gearpair.motion.names import Motion
-from gearpair.motion.settling import PERIODS, settle_batch
+from gearpair.motion.settling import settle_batch
+from gearpair.oscillator import Oscillator
 
 STARTS = tuple((x, v) for x in (-1.0, 0.0, 1.0, 2.0) for v in (-0.6, 0.0, 0.6))
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class Reached:
     """The motions that a hypothesis has at each value of a parameter, whatever the protocol: reached from any start.
 
     Attributes
     ----------
-    hypothesis : Hypothesis
-    parameter : str
     values : ndarray of float, shape (n,)
     motions : tuple of frozenset of Motion
         One set per value, in the article's words as `published_kind` gives them.
@@ -44,9 +45,7 @@ class Reached:
     @property
     def published_present(self) -> NDArray[np.bool_]:
         """Where the published motion was reached, shape (n,)."""
-        ends = [r.upper for r in published.ranges(self.parameter)[:-1]]
-        motions = published_motions(self.parameter)
-        expected = [motions[k] for k in np.searchsorted(ends, self.values, side="right")]
+        expected = published_at(self.parameter, self.values)
         return np.array([want in there for want, there in zip(expected, self.motions, strict=True)])
 
     @property
@@ -68,10 +67,6 @@ def shared_boundaries(reached: Reached) -> list[str]:
     ----------
     reached : Reached
         The value nearest to a boundary tells.
-
-    Returns
-    -------
-    list of str
 
     Examples
     --------
@@ -98,16 +93,9 @@ def reached(
 
     Parameters
     ----------
-    hypotheses : sequence of Hypothesis
     parameter : {"mesh_frequency", "damping_ratio"}
-    n_values : int
-    starts : sequence of (x, v)
     n_discarded : int or None
         As in `Protocol`.
-
-    Returns
-    -------
-    list of Reached
 
     Notes
     -----
@@ -122,15 +110,11 @@ def reached(
     """
     edges = axis(parameter, n_values + 1)
     values = 0.5 * (edges[1:] + edges[:-1])
-    settings = PERIODS.having({"n_transient": n_discarded, "max_period": MAX_PERIOD})
-    found = np.zeros((len(hypotheses), n_values, len(starts)), np.int64)
-    for places in by_levels(hypotheses):
-        oscillators = [osc for i in places for osc in hypotheses[i].along(parameter, values)]
-        out = settle_batch(oscillators, np.tile(starts, (len(oscillators), 1)), settings)
-        found[places] = out.period.reshape(len(places), n_values, len(starts))
+
+    def follow(oscillators: list[Oscillator]) -> NDArray[np.int64]:
+        return settle_batch(oscillators, np.tile(starts, (len(oscillators), 1)), drawn_settings(n_discarded)).period
+
     return [
-        Reached(
-            h, parameter, values, tuple(frozenset(published_kind(int(m), parameter) for m in row) for row in found[i])
-        )
-        for i, h in enumerate(hypotheses)
+        Reached(h, parameter, values, tuple(frozenset(published_kind(int(m), parameter) for m in row) for row in rows))
+        for h, rows in zip(hypotheses, followed(hypotheses, parameter, values, follow), strict=True)
     ]

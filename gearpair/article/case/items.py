@@ -44,7 +44,6 @@ class Evidence:
 
     Parameters
     ----------
-    hypothesis : Hypothesis
     reached : sequence of Reached
         The motions that it has along each published axis.
     changes : sequence of Bifurcation
@@ -316,10 +315,6 @@ def judge_items(printed: Evidence, best: Evidence, items: Collection[str] | None
     items : collection of str, optional
         Only these.
 
-    Returns
-    -------
-    list of Verdict
-
     Examples
     --------
     >>> from gearpair.article import PRINTED, SWAPPED
@@ -329,7 +324,8 @@ def judge_items(printed: Evidence, best: Evidence, items: Collection[str] | None
     verdicts = []
     for item, test, by in TESTED:
         if items is None or item in items:
-            texts, holds = zip(test(printed), test(best), strict=True)
-            verdicts.append(both(item, texts, holds, by) if by else Verdict(item, *texts, "definition"))
+            (text, holds), (other, holds_too) = test(printed), test(best)
+            defined = Verdict(item, text, other, "definition")
+            verdicts.append(both(item, (text, other), (holds, holds_too), by) if by else defined)
     stated = (Verdict(item, text, "the same", word, by) for item, text, word, by in STATED)
     return [*verdicts, *(each for each in stated if items is None or each.item in items)]

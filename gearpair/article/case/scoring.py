@@ -33,17 +33,7 @@ def axis(parameter: str, n_values: int) -> NDArray[np.float64]:
 def random_tables(parameter: str, n: int, *, seed: int = 0, n_values: int = 101) -> list[Score]:
     """Scores of tables with the published motions in their order and boundaries at random.
 
-    Parameters
-    ----------
-    parameter : {"mesh_frequency", "damping_ratio"}
-    n : int
-    seed : int
-    n_values : int
-
-    Returns
-    -------
-    list of Score
-        What a table scores by chance that already knows the motions and their order.
+    They are what a table scores by chance that already knows the motions and their order.
 
     Examples
     --------
@@ -58,7 +48,7 @@ def random_tables(parameter: str, n: int, *, seed: int = 0, n_values: int = 101)
 
 
 NARROW = 1 / 50  # of the axis: narrower runs are dropped before boundaries and sequence are read off
-REACH = 1 / 10  # of the axis: a boundary found this far from the published one earns nothing
+FARTHEST = 1 / 10  # of the axis: a boundary found this far from the published one earns nothing
 
 
 @dataclass(frozen=True)
@@ -76,7 +66,6 @@ class Match:
 
     Attributes
     ----------
-    boundary : published.Boundary
     found : float or None
         None where the table has no such boundary.
     """
@@ -96,7 +85,6 @@ class Score:
 
     Attributes
     ----------
-    parameter : str
     agreement : float
         Fraction of the axis on which the motion is the published one.
     closeness : float
@@ -161,6 +149,13 @@ def published_motions(parameter: str) -> tuple[Motion, ...]:
     return tuple(r.motion for r in published.ranges(parameter))
 
 
+def published_at(parameter: str, values: NDArray[np.float64]) -> list[Motion]:
+    """The published motion at each value; a boundary belongs to the range above it."""
+    ranges = published.ranges(parameter)
+    ends = [r.upper for r in ranges[:-1]]
+    return [ranges[k].motion for k in np.searchsorted(ends, values, side="right")]
+
+
 def score(parameter: str, values: ArrayLike, periods: ArrayLike) -> Score:
     """Compare a computed table of motions with the published one.
 
@@ -171,15 +166,6 @@ def score(parameter: str, values: ArrayLike, periods: ArrayLike) -> Score:
         Parameter values, ascending, evenly spaced over the published axis.
     periods : array_like of int, shape (n,)
         The period at each value, 0 where the motion is not periodic.
-
-    Returns
-    -------
-    Score
-
-    Raises
-    ------
-    ValueError
-        For a parameter that the article does not vary, or values that do not ascend.
 
     Notes
     -----
@@ -201,10 +187,7 @@ def score(parameter: str, values: ArrayLike, periods: ArrayLike) -> Score:
         raise ValueError(f"values of {parameter} must ascend, one per period, at least 2; got shape {grid.shape}")
     motions = [published_kind(int(period), parameter) for period in found]
     expected = published_motions(parameter)
-    ends = np.array([r.upper for r in ranges[:-1]])
-    agreement = float(
-        np.mean([motions[i] == expected[k] for i, k in enumerate(np.searchsorted(ends, grid, side="right"))])
-    )
+    agreement = float(np.mean([a == b for a, b in zip(motions, published_at(parameter, grid), strict=True)]))
     width = ranges[-1].upper - ranges[0].lower
     runs = _runs(grid, motions, NARROW * width)
     changes = tuple(Change(left[0], right[0], right[1]) for left, right in pairwise(runs))
@@ -212,7 +195,7 @@ def score(parameter: str, values: ArrayLike, periods: ArrayLike) -> Score:
     for boundary, kinds in zip(published.boundaries(parameter), pairwise(expected), strict=True):
         places = [change.value for change in changes if (change.below, change.above) == kinds]
         matches.append(Match(boundary, min(places, key=lambda place: abs(place - boundary.value), default=None)))
-    closeness = [0.0 if m.distance is None else max(0.0, 1.0 - abs(m.distance) / (REACH * width)) for m in matches]
+    closeness = [0.0 if m.distance is None else max(0.0, 1.0 - abs(m.distance) / (FARTHEST * width)) for m in matches]
     sequence = tuple(run[0] for run in runs)
     common = 2.0 * _common(sequence, expected) / (len(sequence) + len(expected))
     return Score(parameter, agreement, float(np.mean(closeness)), common, sequence, changes, tuple(matches))

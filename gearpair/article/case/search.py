@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gearpair._checks import check_count
 from gearpair.article import published
 from gearpair.article.case.boundaries import named_bifurcation
-from gearpair.article.case.scoring import REACH, axis, published_motions
+from gearpair.article.case.scoring import FARTHEST, axis, published_motions
 from gearpair.article.case.trials import Trial
 from gearpair.bifurcations.curves import continue_bifurcation
 from gearpair.bifurcations.locating import Bifurcation
@@ -23,14 +23,6 @@ TOLERANCES = {"mesh_frequency": 0.003, "damping_ratio": 0.0002}
 
 def boundaries_met(trial: Trial) -> int:
     """How many of the published boundaries of both tables a diagram meets.
-
-    Parameters
-    ----------
-    trial : Trial
-
-    Returns
-    -------
-    int
 
     Examples
     --------
@@ -54,10 +46,8 @@ def most_met_by_chance(trials: Sequence[Trial], n: int = 1000, *, seed: int = 0)
 
     Parameters
     ----------
-    trials : sequence of Trial
     n : int
         Random tables.
-    seed : int
 
     Returns
     -------
@@ -147,7 +137,7 @@ def asked_phases(bifurcation: Bifurcation, stated: float, largest: float = 0.3) 
     [-0.04]
     """
     ends = axis(bifurcation.parameter, 2)
-    room = REACH * (ends[1] - ends[0])
+    room = FARTHEST * (ends[1] - ends[0])
     own = bifurcation.oscillator.error_phase
     bounds = {
         bifurcation.parameter: (max(ends[0] - room, 0.1 * room), ends[1] + room),

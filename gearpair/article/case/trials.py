@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields
 from itertools import product
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_choice, check_count
 from gearpair.article.case.scoring import Score, axis, score
-from gearpair.article.readings import FORCINGS, Hypothesis
+from gearpair.article.readings import CHOICES, FORCINGS, Hypothesis
 from gearpair.methods.runge_kutta import Integrator, section_period
-from gearpair.motion.settling import PERIODS, settle_batch
+from gearpair.motion.settling import PERIODS, SettleSettings, settle_batch
+from gearpair.oscillator import Oscillator
 from gearpair.table import Table
 
+ALREADY = ("one", "2 zeta sqrt(mean)")  # damping at a mean of one is the article's own
 MAX_PERIOD = 12  # longer ones count as no period: nobody reads them off a diagram
 
 
@@ -32,31 +34,34 @@ def all_hypotheses() -> tuple[Hypothesis, ...]:
     >>> len(all_hypotheses()), all_hypotheses()[0] == PRINTED
     (176, True)
     """
-    orders = list(product(("eps - 1", "2 - eps"), ("stiff", "soft"), FORCINGS))
-    scalings = [
-        (force, mean, damping)
-        for force, mean, damping in product(
-            ("Omega^2", "constant"), ("as printed", "one"), ("2 zeta", "zeta", "2 zeta sqrt(mean)")
-        )
-        if (mean, damping) != ("one", "2 zeta sqrt(mean)")
-    ]
-    rectangles = [
-        Hypothesis(stiff_for=s, first=i, phase=p, force=f, mean=m, damping=d)  # type: ignore[arg-type]
-        for (s, i, p), (f, m, d) in product(orders, scalings)
-    ]
-    harmonics = [
-        Hypothesis(stiff_for=s, first=i, phase=p, shape="first harmonic")  # type: ignore[arg-type]
-        for s, i, p in orders
-    ]
-    return (*rectangles, *harmonics)
+    orders = _combined("stiff_for", "first", phase=FORCINGS)
+    scalings = [each for each in _combined("force", "mean", "damping") if (each["mean"], each["damping"]) != ALREADY]
+    rectangles = [Hypothesis(**order, **scaling) for order, scaling in product(orders, scalings)]
+    return (*rectangles, *(Hypothesis(**order, shape="first harmonic") for order in orders))
 
 
-def by_levels(hypotheses: Sequence[Hypothesis]) -> list[list[int]]:
-    """The places of hypotheses whose waves have equally many levels, which can be followed side by side."""
-    places: dict[int, list[int]] = {}
-    for i, hypothesis in enumerate(hypotheses):
-        places.setdefault(len(hypothesis.wave.levels), []).append(i)
-    return list(places.values())
+def _combined(*names: str, **others: Iterable[Any]) -> list[dict[str, Any]]:
+    """Every combination of the choices of some fields of a reading, and of other values."""
+    values = {name: CHOICES[name] for name in names} | others
+    return [dict(zip(values, each, strict=True)) for each in product(*values.values())]
+
+
+def followed(
+    hypotheses: Sequence[Hypothesis], parameter: str, values: ArrayLike, follow: Callable[[list[Oscillator]], Any]
+) -> NDArray[Any]:
+    """What `follow` finds along a parameter, shape (hypotheses, values, ...): equally many levels go side by side."""
+    levels = [len(hypothesis.wave.levels) for hypothesis in hypotheses]
+    found: dict[int, NDArray[Any]] = {}
+    for n in set(levels):
+        places = [i for i, own in enumerate(levels) if own == n]
+        rows = follow([osc for i in places for osc in hypotheses[i].along(parameter, values)])
+        found |= zip(places, np.asarray(rows).reshape(len(places), np.size(values), -1), strict=True)
+    return np.array([found[i] for i in range(len(hypotheses))])
+
+
+def drawn_settings(n_discarded: int | None) -> SettleSettings:
+    """How a motion settles whose period alone is read off."""
+    return PERIODS.having({"n_transient": n_discarded, "max_period": MAX_PERIOD})
 
 
 @dataclass(frozen=True)
@@ -143,21 +148,17 @@ def periods(
     values = axis(parameter, n_values)
     order = slice(None, None, -1) if protocol.seeding == "down" else slice(None)
     chain = 1 if protocol.seeding == "restart" else n_values
-    found = np.zeros((len(hypotheses), n_values), np.int64)
-    for places in by_levels(hypotheses):
-        oscillators = [osc for i in places for osc in hypotheses[i].along(parameter, values[order])]
+    x, v, n_discarded = protocol.x, protocol.v, protocol.n_discarded
+
+    def draw(oscillators: list[Oscillator]) -> ArrayLike:
         if integrator is None:
-            starts = np.broadcast_to([protocol.x, protocol.v], (len(oscillators), 2))
-            settings = PERIODS.having({"n_transient": protocol.n_discarded, "max_period": MAX_PERIOD})
-            drawn = settle_batch(oscillators, starts, settings, chain=chain).period
-        else:
-            n_discarded = check_count("n_discarded", protocol.n_discarded)
-            sections = integrator.sections(
-                oscillators, protocol.x, protocol.v, n_discarded, 2 * MAX_PERIOD, chain=chain
-            )
-            drawn = np.array([section_period(section) for section in sections])
-        found[places] = drawn.reshape(len(places), n_values)[:, order]
-    return found
+            starts = np.broadcast_to([x, v], (len(oscillators), 2))
+            return settle_batch(oscillators, starts, drawn_settings(n_discarded), chain=chain).period
+        n = check_count("n_discarded", n_discarded)
+        sections = integrator.sections(oscillators, x, v, n, 2 * MAX_PERIOD, chain=chain)
+        return [section_period(section) for section in sections]
+
+    return followed(hypotheses, parameter, values[order], draw)[:, order, 0]
 
 
 def run_trials(
@@ -170,21 +171,10 @@ def run_trials(
 
     Parameters
     ----------
-    hypotheses : sequence of Hypothesis
-    protocols : sequence of Protocol
     n_values : int
         Values on each axis.
     integrators : sequence of Integrator or None
-        None is the exact flow.
-
-    Returns
-    -------
-    list of Trial
-
-    Raises
-    ------
-    ValueError
-        For an integrator with a protocol that waits until motions settle.
+        None is the exact flow; another needs protocols with a number of mesh periods to discard.
 
     Examples
     --------
@@ -267,10 +257,6 @@ def score_by_start(done: Iterable[Trial]) -> Table:
     ----------
     done : iterable of Trial
         Of `run_trials`.
-
-    Returns
-    -------
-    Table
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """What becomes of every numbered item of the article, by one rule.
 
 A test asks whether an item holds in the printed reading and whether it holds in the best one; for a number there is a
-third answer, that it nearly holds, with another number. `judge` makes a word of the two answers:
+third answer, that it nearly holds, with another number. `verdict_word` makes a word of the two answers:
 
 - *confirmed*: it holds in both;
 - *corrected*: it holds in the best reading only, or nearly, and no less than as printed: right about what was computed,
@@ -18,15 +18,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 from gearpair.article import published
 from gearpair.table import Table
 
 Decided = Literal["confirmed", "corrected", "contrary", "refuted", "vacuous"]
 Undecided = Literal["definition", "assumption", "advice"]
-DECIDED: tuple[Decided, ...] = ("confirmed", "corrected", "contrary", "refuted", "vacuous")
-UNDECIDED: tuple[Undecided, ...] = ("definition", "assumption", "advice")
+DECIDED, UNDECIDED = get_args(Decided), get_args(Undecided)
 FAILS, NEARLY, HOLDS = 0, 1, 2
 NEAR, FAR = 0.01, 0.05  # of the axis: a number holds this near, and nearly holds this far
 
@@ -37,7 +36,6 @@ class Verdict:
 
     Attributes
     ----------
-    item : str
     printed, best : str
         What the printed and the best reading give.
     verdict : str
@@ -60,12 +58,12 @@ class Verdict:
             )
 
 
-def judge(printed: int, best: int) -> Decided:
+def verdict_word(printed: int, best: int) -> Decided:
     """The word for how far an item holds in the two readings: `FAILS`, `NEARLY` or `HOLDS`.
 
     Examples
     --------
-    >>> judge(HOLDS, HOLDS), judge(FAILS, HOLDS), judge(HOLDS, FAILS), judge(FAILS, FAILS)
+    >>> verdict_word(HOLDS, HOLDS), verdict_word(FAILS, HOLDS), verdict_word(HOLDS, FAILS), verdict_word(FAILS, FAILS)
     ('confirmed', 'corrected', 'contrary', 'refuted')
     """
     if printed > best:
@@ -90,7 +88,7 @@ def grade(value: float | None, stated: float, width: float) -> int:
 def both(item: str, texts: Sequence[str], holds: Sequence[bool | int], decided_by: str) -> Verdict:
     """The verdict on an item from what the two readings give and whether, or how far, it holds in each."""
     printed, best = (HOLDS if each is True else int(each) for each in holds)
-    return Verdict(item, texts[0], texts[1], judge(printed, best), decided_by)
+    return Verdict(item, texts[0], texts[1], verdict_word(printed, best), decided_by)
 
 
 def count_verdicts(verdicts: Iterable[Verdict]) -> dict[str, int]:

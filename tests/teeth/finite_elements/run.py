@@ -1,7 +1,7 @@
 """Finite-element gear bodies with one or several teeth: run once, the results kept in the package.
 
     pip install scikit-fem gmsh meshio
-    python tests/finite_elements/run.py          about two minutes; writes its results
+    python tests/teeth/finite_elements/run.py    about two minutes; writes its results
 
 Plane stress, quadratic triangles, E = b = module = 1, bore fixed. A unit force acts on a node of the flank along
 the line of action. What is recorded is the displacement along each load's own line of action of

@@ -1,23 +1,21 @@
 """The two small pairs of the first page, and what all scripts of the site have in common."""
 
 from gearpair.plotting.style import MOTION_COLOURS
-from tests.browser import Browser
-from tests.explorer_pages import write_pairs_page
 from tests.support.engines import MODULES
+from tests.support.explorer_pages import opened, write_pairs_page
 
 
-def test_the_small_pairs_move_and_rest(tmp_path):
-    with Browser(tmp_path / "profile") as browser:
-        browser.open(write_pairs_page(tmp_path).as_uri())
-        browser.wait_for("globalThis.gearpair?.use('pair').groups.length === 1")
+def test_the_small_pairs_move_and_rest(tmp_path, browser):
+    with opened(browser) as go:
+        page = go(write_pairs_page(tmp_path).as_uri())
+        page.wait_for_function("globalThis.gearpair?.use('pair').groups.length === 1")
         group = "gearpair.use('pair').groups[0]"
-        lowest = browser.run(f"{group}.pairs.map((pair) => Math.min(...pair.recorded.x))")
+        lowest = page.evaluate(f"{group}.pairs.map((pair) => Math.min(...pair.recorded.x))")
         assert lowest[0] > -1.0  # rattles: never reaches the coast side
         assert lowest[1] < -1.0  # clatters
-        browser.wait_for(f"{group}.pairs[0].time > 0")
-        browser.run(f"{group}.button.click()")
-        assert browser.run(f"{group}.button.textContent") == "Play"
-        assert browser.errors == []
+        page.wait_for_function(f"{group}.pairs[0].time > 0")
+        page.evaluate(f"{group}.button.click()")
+        assert page.evaluate(f"{group}.button.textContent") == "Play"
 
 
 def test_colours_are_the_book_s():

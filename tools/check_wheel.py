@@ -15,7 +15,7 @@ def library_example() -> str:
 
 
 if __name__ == "__main__":
-    python = sys.argv[1]
+    python = Path(sys.argv[1]).absolute()  # the path of the environment, not of what it links to
     check = "import gearpair, pathlib; assert 'site-packages' in gearpair.__file__, gearpair.__file__\n"
     script = check + library_example() + "\nprint(diagram.period.values)"
     subprocess.run([python, "-I", "-c", script], check=True, cwd="/")

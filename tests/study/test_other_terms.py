@@ -5,11 +5,11 @@ import os
 import nbformat
 import pytest
 
-from gearpair.study import stability
-from gearpair.study.book import Book, accept_outputs
+from gearpair.study.book import Book
 from gearpair.study.cli import main
-from gearpair.study.stability import CONDITIONS, NUDGED, environment
 from tests.support.notebooks import MEAN, write_notebook
+from tools.accept import accept_outputs
+from tools.other_terms import CONDITIONS, NUDGED, compared, environment, stability
 
 RAW = "print(repr(a))"  # all digits of a parameter
 THREADS = "import os\nprint(os.environ.get('NUMBA_NUM_THREADS'))"
@@ -27,13 +27,15 @@ def stored(small_book):
     return store
 
 
+@pytest.mark.slow
 def test_what_is_rounded_is_the_same_on_all_terms(stored, capsys):
-    assert main(["--root", str(stored(MEAN)), "stability"]) == 0
+    assert main(["--root", str(stored(MEAN))], run=stability) == 0
     assert capsys.readouterr().out.splitlines() == [f"small, {condition}: the same" for condition in CONDITIONS]
 
 
+@pytest.mark.slow
 def test_what_hangs_on_the_last_digits_or_on_the_machine_is_named(stored, capsys):
-    assert main(["--root", str(stored(RAW, THREADS)), "stability", "small"]) == 1
+    assert main(["--root", str(stored(RAW, THREADS)), "small"], run=stability) == 1
     lines = dict(line.split(": ") for line in capsys.readouterr().out.splitlines())
     assert lines[f"small, {NUDGED}"] == "code cells 2 differ"
     assert lines["small, one thread"] == "code cells 3 differ"
@@ -53,6 +55,6 @@ def test_what_is_printed_in_pieces_is_the_same_as_in_one():
         nbformat.v4.new_code_cell(outputs=[nbformat.v4.new_output("stream", text=text) for text in texts])
         for texts in (["a\nb\n"], ["a\n", "b\n"])
     )
-    assert stability._compared(one) == stability._compared(two)
+    assert compared(one) == compared(two)
     two.outputs[1].text = "c\n"
-    assert stability._compared(one) != stability._compared(two)
+    assert compared(one) != compared(two)

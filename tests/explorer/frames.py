@@ -1,6 +1,6 @@
 """How smoothly the explorer answers while a slider is dragged; by hand, since it depends on the clock.
 
-    python -m tests.explorer_frames [page]
+    python -m tests.explorer.frames [page]
 
 Drags three sliders over their whole range in Chromium without a window, one mouse event a frame, and prints frames per
 second, the longest frame, and how many of the frames showed a new motion.
@@ -10,8 +10,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from tests.browser import Browser
-from tests.explorer_pages import write_page
+from tests.support.explorer_pages import opened, write_page
+from tools.browser import chromium
 
 WATCH = """
 window.watch = () => {
@@ -44,14 +44,13 @@ DRAG = """
 
 def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
-        page = sys.argv[1] if len(sys.argv) > 1 else write_page(Path(folder)).as_uri()
-        with Browser(Path(folder) / "profile") as browser:
-            browser.size(1400, 1000)
-            browser.open(page)
-            browser.wait_for("document.getElementById('explorer').explorer?.shown")
-            browser.run(WATCH)
+        address = sys.argv[1] if len(sys.argv) > 1 else write_page(Path(folder)).as_uri()
+        with chromium() as browser, opened(browser) as go:
+            page = go(address)
+            page.wait_for_function("document.getElementById('explorer').explorer?.shown")
+            page.evaluate(f"() => {{ {WATCH} }}")
             for name in ("mesh_frequency", "damping_ratio", "error_amplitude"):
-                seen = browser.run(f"({DRAG})({name!r}, 300)")
+                seen = page.evaluate(f"({DRAG})({name!r}, 300)")
                 print(f"{name}: {seen['fps']:.1f} frames/s, longest {seen['longest']:.0f} ms, "
                       f"{seen['draws']} new pictures in {seen['frames']} frames")  # fmt: skip
 

@@ -13,11 +13,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+import click
 from bs4 import BeautifulSoup, Tag
 
 from gearpair.study.book import Book
-from gearpair.study.browser import chromium, serve
+from gearpair.study.cli import main
 from gearpair.study.errors import StudyError
+from tools.browser import chromium, serve
 
 LEFT_OUT = "a.headerlink, script, style, button, nav, .gp-pairs, .toggle-hidden, .toctree-wrapper, svg.sd-octicon"
 EXPLORER = ".gp-explorer"  # moves, so paper gets a picture of it
@@ -221,8 +223,14 @@ def _moved(tag: str, name: str) -> str:
     return re.sub(r'((?:href|src)=")([^"]+)', lambda found: found[1] + _from_root(name, found[2]), tag)
 
 
-if __name__ == "__main__":
-    here = Book.find()
-    target = here.root / "_build" / "gearpair.pdf"
+@click.command()
+def pdf() -> None:
+    """Print the built book to ``_build/gearpair.pdf``."""
+    book = Book.find()
+    target = book.root / "_build" / "gearpair.pdf"
     print("Printing the book (a minute or two)", file=sys.stderr)
-    print(f"{target}: {print_book(here, target)} pages")
+    print(f"{target}: {print_book(book, target)} pages")
+
+
+if __name__ == "__main__":
+    sys.exit(main(run=pdf, name="tools.pdf"))

@@ -1,6 +1,6 @@
 """The explorer's JavaScript computes what gearpair computes: states, impacts, settled motions, spectra, diagrams."""
 
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -10,17 +10,20 @@ from gearpair._flow.cells import build_cells
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.walk import walk
 from gearpair.motion.trajectories import raise_unless_ok
-from tests.support.engines import ENGINES
+from tests.support.engines import run_in_chromium, run_in_node
 from tests.support.oscillators import degenerate_cases, random_case
 from tests.support.reference import kernel_parameters
 
 PERIODS = 4
 
 
-@pytest.fixture(scope="module", params=ENGINES)
+@pytest.fixture(scope="module", params=["node", "chromium"])
 def run(request):
-    ENGINES[request.param]("() => 0", None)  # where it is missing, skip before anything is computed
-    return ENGINES[request.param]
+    """Runs a function of the modules; skips where the engine is missing, before anything is computed."""
+    if request.param == "chromium":
+        return partial(run_in_chromium, request.getfixturevalue("browser"))
+    run_in_node("() => 0", None)
+    return run_in_node
 
 
 def as_json(osc: gp.Oscillator, x: float = 1.0, v: float = 0.0) -> dict:
@@ -73,6 +76,7 @@ def records() -> list[tuple[dict, gp.Trajectory, float]]:
     ]
 
 
+@pytest.mark.slow
 def test_states_and_impacts_of_ten_thousand_oscillators_and_every_degenerate_case(run):
     cases, motions, growths = zip(*records(), strict=True)
     worst = 0.0
@@ -112,6 +116,7 @@ def gear_pair(rng: np.random.Generator) -> gp.Oscillator:
     )
 
 
+@pytest.mark.slow
 def test_settled_motions(run):
     rng = np.random.default_rng(4)
     states = [gp.steady_state(gear_pair(rng), rng.normal(0.0, 1.5), rng.normal(), max_period=64) for _ in range(400)]
@@ -178,6 +183,7 @@ SPECTRUM = """({ x, v, periods, ...oscillator }) => {
 }"""
 
 
+@pytest.mark.slow
 def test_spectrum_and_samples(run):
     osc = gp.Oscillator()
     motion = gp.trajectory(osc, 1.0, 0.0, 8, samples_per_period=256)

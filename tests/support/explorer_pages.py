@@ -1,10 +1,38 @@
 """The explorer's page without the book's theme, for tests in a browser and by hand."""
 
 import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
-ROOT = Path(__file__).parents[1]
+from tests.support import ROOT
+
 STATIC = ROOT / "book" / "_static"
+
+
+@contextmanager
+def opened(browser: Any) -> Iterator[Callable[..., Any]]:
+    """Give what opens an address; in no page may anything go wrong or be fetched from elsewhere."""
+    context = browser.new_context(viewport={"width": 1300, "height": 1600})
+    context.set_default_timeout(120_000)  # a page that is silent for longer hangs
+    errors, requests = [], []
+    context.on("weberror", lambda error: errors.append(str(error.error)))
+    context.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
+    context.on("request", lambda request: requests.append(request.url))
+
+    def go(url: str, **media: str) -> Any:
+        page = context.new_page()
+        page.emulate_media(**media)
+        page.goto(url)
+        return page
+
+    try:
+        yield go
+        assert errors == []
+        assert [url for url in requests if not url.startswith(("file:", "blob:", "about:"))] == []
+    finally:
+        context.close()
 
 
 def write_page(folder: Path) -> Path:

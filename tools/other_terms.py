@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import click
 import nbformat
 
-from gearpair.study.book import Book, stable_notebook
+from gearpair.study.book import Book
 from gearpair.study.chapters import Chapter
+from gearpair.study.cli import main
+from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
+from tools.accept import stable_notebook
 
 NUDGE = 1.0 + 1e-12
 NUDGED = "parameters changed by 1e-12"
@@ -68,11 +73,11 @@ def changed_cells(chapter: Chapter, condition: str) -> list[int]:
     return [
         number
         for number, (a, b) in enumerate(pairs, start=1)
-        if NOT_COMPARED not in a.metadata.get("tags", []) and _compared(a) != _compared(b)
+        if NOT_COMPARED not in a.metadata.get("tags", []) and compared(a) != compared(b)
     ]
 
 
-def _compared(cell: nbformat.NotebookNode) -> list[tuple[str, Any]]:
+def compared(cell: nbformat.NotebookNode) -> list[tuple[str, Any]]:
     """What a cell put out, less the numbers that count executions; what it printed in one piece, however it arrived."""
     printed = "".join(output.text for output in cell.outputs if output.output_type == "stream")
     shown = [(output.output_type, output.get("data")) for output in cell.outputs if output.output_type != "stream"]
@@ -91,3 +96,25 @@ def check_stability(book: Book, names: tuple[str, ...] = ()) -> Iterator[tuple[s
         for condition in CONDITIONS:
             if condition != NUDGED or nudged(chapter):
                 yield chapter.name, condition, changed_cells(chapter, condition)
+
+
+@click.command()
+@click.option("--root", type=click.Path(path_type=Path), metavar="DIR", help="The checkout; found from here upwards.")
+@click.argument("chapters", nargs=-1)
+def stability(root: Path | None, chapters: tuple[str, ...]) -> None:
+    """Run chapters on other terms and compare with the stored outputs.
+
+    As on a processor without fused multiply-add, with one thread, and with parameters changed by 1e-12. CHAPTERS are
+    names; all when none is given.
+    """
+    unstable = 0
+    for name, condition, cells in check_stability(Book.find(root), chapters):
+        unstable += bool(cells)
+        told = f"code cells {', '.join(map(str, cells))} differ" if cells else "the same"
+        print(f"{name}, {condition}: {told}", flush=True)
+    if unstable:
+        raise StudyError(f"{unstable} of the runs put out something else than is stored")
+
+
+if __name__ == "__main__":
+    sys.exit(main(run=stability, name="tools.other_terms"))

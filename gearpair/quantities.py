@@ -1,0 +1,191 @@
+"""The vocabulary: what each quantity is called, in a dataset, on an axis and at the head of a column.
+
+One row for each; whoever shows a quantity takes its name, its symbol and its unit from here.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+# How the letters of plain symbols are spelled, and what stands for them on a page.
+LETTERS = dict(
+    zip(("Omega", "omega", "theta", "zeta", "phi", "psi", "eps", "epsilon", "tau", "pi"), "Ωωθζφψεετπ", strict=True)
+)
+
+
+class Quantity(NamedTuple):
+    """One quantity and how it is told; braces in `words` and `axis` are where its symbol stands.
+
+    Parameters
+    ----------
+    name : str
+        In the library: of a parameter or of a variable.
+    words : str
+        What it is.
+    symbol : str
+        The article's, in plain letters.
+    tex : str
+        The same as TeX sets it, where that differs.
+    unit : str
+        ``"1"`` for what is dimensionless.
+    axis : str
+        The words along an axis, where they are shorter.
+
+    Examples
+    --------
+    >>> QUANTITIES["mesh_frequency"].long_name, QUANTITIES["mesh_frequency"].label
+    ('mesh frequency Omega_h', 'mesh frequency $\\\\Omega_h$')
+    >>> QUANTITIES["speed"].label
+    'speed of the pinion (rpm)'
+    """
+
+    name: str
+    words: str
+    symbol: str = ""
+    tex: str = ""
+    unit: str = "1"
+    axis: str = ""
+
+    @property
+    def long_name(self) -> str:
+        """The words with the symbol in plain letters."""
+        return self.words.format(self.symbol)
+
+    @property
+    def in_tex(self) -> str:
+        """The symbol as TeX sets it, without dollars."""
+        return self.tex or self.symbol
+
+    @property
+    def label(self) -> str:
+        """The words along an axis with the symbol in TeX, and the unit."""
+        unit = "" if self.unit == "1" else f" ({self.unit.replace('um', 'µm')})"
+        return (self.axis or self.words).format(f"${self.in_tex}$") + unit
+
+
+ROWS = (
+    # The oscillator's parameters.
+    Quantity("mean_force", "mean force {}", "F_m'"),
+    Quantity("error_amplitude", "transmission error amplitude {}", "F_ah", "F_{ah}", axis="transmission error {}"),
+    Quantity(
+        "error_phase", "transmission error phase {}", "phi_h", r"\varphi_h", "rad",
+        axis="phase of the transmission error {}",
+    ),
+    Quantity("damping_ratio", "damping ratio {}", "zeta", r"\zeta"),
+    Quantity("mesh_frequency", "mesh frequency {}", "Omega_h", r"\Omega_h"),
+    Quantity("contact_ratio", "contact ratio {}", "epsilon", r"\varepsilon"),
+    Quantity("a", "stiffness added in double contact, {}", "a", axis="{}"),
+    Quantity("b", "stiffness missing in single contact, {}", "b", axis="{}"),
+    # One motion.
+    Quantity("tau", "time {}", "tau", r"\tau / T_h", axis="time {} (mesh periods)"),
+    Quantity("frequency", "frequency over the mesh frequency {}", "Omega_h", r"\Omega_h", axis="frequency / {}"),
+    Quantity("stiffness", "stiffness {}", "k", r"\bar k"),
+    Quantity("x", "{} on the section", "X", axis="displacement {}"),
+    Quantity("v", "{} on the section", "X'", axis="velocity {}"),
+    Quantity("section", "{} on the section", "X"),
+    Quantity("start_x", "initial X", "X_0", axis="initial displacement {}"),
+    Quantity("start_v", "initial X'", "X_0'", axis="initial velocity {}"),
+    # What it settles on.
+    Quantity("motion", "motion"),
+    Quantity("status", "what the motion became"),
+    Quantity("period", "period in mesh periods, 0 unless periodic"),
+    Quantity("impact_state", "impact state"),
+    Quantity("x_min", "smallest X", "X_min", r"X_{\min}"),
+    Quantity("x_max", "largest X", "X_max", r"X_{\max}"),
+    Quantity(
+        "exponent", "largest Lyapunov exponent per unit tau", "lambda_1", r"\lambda_1", axis="largest exponent {}"
+    ),
+    Quantity("exponent_error", "standard error of the largest exponent"),
+    Quantity("section_x", "{} on the section, the smallest of the cycle; nan unless periodic", "X"),
+    Quantity("section_v", "{} there", "X'"),
+    Quantity(
+        "settling_time", "mesh periods until the motion was certain to stay with its attractor",
+        axis="settling time (mesh periods)",
+    ),
+    Quantity("impacts_before", "contacts made in that time"),
+    Quantity("worst_impact_state", "impact state of the whole way, the attractor included"),
+    Quantity("largest_displacement", "largest {} on the whole way, the attractor included", "|X|", axis="largest {}"),
+    # Several motions.
+    Quantity("attractor", "number of the attractor"),
+    Quantity("tips_to", "number of the attractor that one that has ended goes over to"),
+    Quantity("share", "share of the starts"),
+    Quantity("share_error", "standard error of the share, for starts drawn at random"),
+    Quantity("n_attractors", "number of attractors that the starts reach"),
+    Quantity("hysteresis", "whether the motion carried up differs from that carried down"),
+    Quantity("calls", "calls of the right-hand side"),
+    # Measures of a motion.
+    Quantity("drive_impacts", "contacts made on the drive side per mesh period"),
+    Quantity("coast_impacts", "contacts made on the coast side per mesh period"),
+    Quantity("drive_velocity", "largest approach speed on the drive side", axis="largest approach speed, drive side"),
+    Quantity("coast_velocity", "largest approach speed on the coast side", axis="largest approach speed, coast side"),
+    Quantity("drive_velocity_mean", "mean approach speed on the drive side"),
+    Quantity("coast_velocity_mean", "mean approach speed on the coast side"),
+    Quantity("drive_impulse", "impulse on the drive side per mesh period"),
+    Quantity("coast_impulse", "impulse on the coast side per mesh period"),
+    Quantity("drive_share", "share of the time in drive-side contact"),
+    Quantity("coast_share", "share of the time in coast-side contact"),
+    Quantity("flight_share", "share of the time without contact"),
+    Quantity("drive_force", "largest mesh force on the drive side"),
+    Quantity("coast_force", "largest mesh force on the coast side"),
+    Quantity("load_factor", "largest mesh force over the mean force", axis="dynamic load factor"),
+    Quantity("x_mean", "mean of {}", "X"),
+    Quantity("x_rms", "root mean square of {} about its mean", "X", axis="rms of {} about its mean"),
+    Quantity("peak_to_peak", "peak-to-peak value of {}", "X"),
+    # A drive over its speeds, in SI units.
+    Quantity("speed", "speed of the pinion", unit="rpm"),
+    Quantity(
+        "dte_rms", "rms of the dynamic transmission error about its mean", unit="um",
+        axis="dynamic transmission error, rms",
+    ),
+    Quantity("dte_peak_to_peak", "peak to peak of the dynamic transmission error", unit="um"),
+    Quantity("mesh_force", "largest mesh force", unit="N"),
+    Quantity("tooth_force", "largest force on one pair of teeth", unit="N"),
+    Quantity("dynamic_factor", "largest mesh force over the mean force", axis="largest mesh force / mean force"),
+    Quantity("time_apart", "share of the time without contact"),
+    Quantity("impact_rate", "impacts per second", unit="1/s"),
+    Quantity("impact_velocity", "largest approach velocity at an impact", unit="mm/s", axis="largest impact velocity"),
+    Quantity("n_motions", "motions found"),
+    Quantity("worst_share", "share of the starts that leads to the worst motion"),
+    Quantity("linear_factor", "dynamic factor of the linear response"),
+    Quantity("linear_rms", "rms of the linear response", unit="um"),
+    Quantity("frequency_ratio", "mesh frequency over the natural frequency"),
+    Quantity("jump_speed", "speed of the jump", unit="rpm"),
+    Quantity("jump_run", "jump: run"),
+    Quantity("jump_kind", "jump: kind"),
+    Quantity("jump_from", "jump: from"),
+    Quantity("jump_to", "jump: to"),
+    # The worst of a range of speeds.
+    Quantity("worst_dynamic_factor", "largest dynamic factor"),
+    Quantity("worst_mesh_force", "largest mesh force", unit="N"),
+    Quantity("worst_time_apart", "largest share of the time without contact", axis="largest share of time apart"),
+    Quantity("impact_range", "speeds with impacts, together", unit="rpm", axis="speeds with impacts"),
+)  # fmt: skip
+QUANTITIES = {row.name: row for row in ROWS}
+
+
+def attributes(name: str) -> dict[str, str]:
+    """Long name and units of a dataset's variable, by its name; an attractor's are those of its motion."""
+    quantity = QUANTITIES.get(name) or QUANTITIES[name.removeprefix("attractor_")]
+    return {"long_name": quantity.long_name, "units": quantity.unit}
+
+
+def symbol(name: str) -> str:
+    """The article's symbol of a quantity, in plain letters.
+
+    Examples
+    --------
+    >>> symbol("mesh_frequency"), symbol("a")
+    ('Omega_h', 'a')
+    """
+    return QUANTITIES[name].symbol
+
+
+def axis_label(name: str) -> str:
+    """The label of an axis; a name that stands for no quantity labels it itself.
+
+    Examples
+    --------
+    >>> axis_label("contact_ratio")
+    'contact ratio $\\\\varepsilon$'
+    """
+    return QUANTITIES[name].label if name in QUANTITIES else name
