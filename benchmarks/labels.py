@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import gearpair as gp
-from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, scouts
+from gearpair.ensembles.capture import known_attractors, numbered, scouts
 from gearpair.ensembles.datasets import settled_columns
 from gearpair.motion.settling import STATUSES, SettleSettings, Status, settle_batch
 from gearpair.table import Table
@@ -82,9 +82,8 @@ def compare(case: Case, n: int, seed: int = 0) -> Outcome:
     starts = np.random.default_rng(seed).uniform(-1.0, 1.0, (n, 2)) * case.reach
     settings = SettleSettings(n_exponent=500, n_samples=64)
     out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[scouts(n)], settings))
-    found, places = found_in(settled_columns(out))
-    (numbers,), known = number_attractors([found])
-    labels, first = numbers[places], known["first"]
+    labels, known = numbered(settled_columns(out))
+    first = known["first"]
     periodic = out.status == STATUSES.index(Status.PERIODIC)
     ends = march_on(osc, starts, -out.exponents[periodic, 0].max(initial=-osc.damping_ratio))
     changed = int(np.sum(periodic & (np.abs(gaps(ends, labels, out.points[first], out.period[first])) > ON_ORBIT)))

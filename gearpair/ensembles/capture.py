@@ -84,6 +84,13 @@ def found_in(columns: Mapping[str, NDArray[Any]], offset: int = 0) -> tuple[Foun
     return Found(marks[first], rows + offset, counts, {name: c[rows] for name, c in columns.items()}), places
 
 
+def numbered(columns: Mapping[str, NDArray[Any]]) -> tuple[NDArray[np.int64], dict[str, NDArray[Any]]]:
+    """The number of each motion's attractor, or -1, and what each attractor is: `number_attractors` of one part."""
+    found, places = found_in(columns)
+    (numbers,), table = number_attractors([found])
+    return numbers[places], table
+
+
 def number_attractors(found: Sequence[Found]) -> tuple[list[NDArray[np.int64]], dict[str, NDArray[Any]]]:
     """One numbering for the attractors of several parts: the number of each part's places, and what each attractor is.
 

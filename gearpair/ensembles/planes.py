@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._flow.settle import Known
-from gearpair.ensembles.capture import Found, found_in, known_attractors, number_attractors, scouts
+from gearpair.ensembles.capture import Found, found_in, known_attractors, number_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, settled_columns, variables_of, way_columns
 from gearpair.ensembles.stores import add_column, add_table, by_store, fill, opened_dataset, read_blocks
 from gearpair.motion.impacts import ImpactState
@@ -95,10 +95,9 @@ def basins(
     if by_store(store, client):
         return _stored(plane, store, client, progress)
     columns = plane.columns(0, len(vs), progress=progress)
-    found, places = found_in(columns)
-    (numbers,), table = number_attractors([found])
-    variables = variables_of(columns | {"attractor": numbers[places]}, ("v", "x"), (len(vs), len(xs)))
-    variables |= attractor_variables(table, len(places))
+    labels, table = numbered(columns)
+    variables = variables_of(columns | {"attractor": labels}, ("v", "x"), (len(vs), len(xs)))
+    variables |= attractor_variables(table, len(labels))
     return dataset(osc, variables, plane.axes).assign_coords(attractor_number=np.arange(len(table["counts"])))
 
 

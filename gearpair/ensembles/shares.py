@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
-from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, scouts
+from gearpair.ensembles.capture import known_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns
 from gearpair.ensembles.planes import attractor_variables, basins
 from gearpair.motion.names import motions_of
@@ -63,8 +63,7 @@ def basin_stability(
     starts = random_starts(n, x_reach, v_reach, seed)
     settings = MANY.having(settling)
     out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[scouts(n)], settings))
-    found, _ = found_in(settled_columns(out))
-    _, table = number_attractors([found])
+    _, table = numbered(settled_columns(out))
     result = dataset(osc, attractor_variables(table, n, errors=True), {}, n=n)
     return result.assign_coords(attractor_number=np.arange(len(table["counts"])))
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_choice
-from gearpair.ensembles.capture import found_in, number_attractors
+from gearpair.ensembles.capture import numbered
 from gearpair.ensembles.datasets import (
     dataset,
     oscillators_along,
@@ -218,7 +218,7 @@ class Grid:
         out = settle_batch(oscillators, np.tile(self.others, (len(oscillators), 1)), self.settings, cores=cores)
         columns = settled_columns(out)
         own = ({name: c[i : i + n] for name, c in columns.items()} for i in range(0, len(out.status), n))
-        return np.array([len(number_attractors([found_in(each)[0]])[1]["first"]) for each in own], dtype=np.int64)
+        return np.array([len(numbered(each)[1]["first"]) for each in own], dtype=np.int64)
 
     def _hysteresis(self, oscillators: list[Oscillator], shape: tuple[int, ...], cores: bool) -> NDArray[np.bool_]:
         """Whether the motions carried up and down along the axis differ."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count, check_number
-from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, scouts
+from gearpair.ensembles.capture import known_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
 from gearpair.ensembles.planes import ATTRACTOR_COLUMNS
 from gearpair.ensembles.shares import random_starts
@@ -75,17 +75,12 @@ def continue_attractors(
         here = np.concatenate([starts, *(points[number][np.newaxis] for number in before)])
         first = np.concatenate([scouts(n), np.arange(n, len(here))])
         out = settle_batch([each], here, settings, known=known_attractors(each, here[first], settings))
-        columns = settled_columns(out)
-        found, place = found_in(columns)
-        (numbers,), table = number_attractors([found])
-        labels = numbers[place]
+        labels, table = numbered(settled_columns(out))
         extremes = np.column_stack([table["x_min"], table["x_max"]])
         given, tipped = _matched(dict(zip(before, labels[n:].tolist(), strict=True)), places, extremes, nearest)
         counts = np.bincount(labels[:n][labels[:n] >= 0], minlength=len(extremes))
-        for k, number in enumerate(given):
-            entries.append(
-                (i, number, {"share": counts[k] / n, **{name: table[name][k] for name in ATTRACTOR_COLUMNS}})
-            )
+        told = {"share": counts / n, **{name: table[name] for name in ATTRACTOR_COLUMNS}}
+        entries += [(i, number, {name: column[k] for name, column in told.items()}) for k, number in enumerate(given)]
         entries += [(i, number, {"tips_to": to}) for number, to in tipped.items()]
         points = {number: out.points[table["first"][k], 0] for k, number in enumerate(given)}
         places |= {number: extremes[k] for k, number in enumerate(given)}

@@ -155,3 +155,13 @@ def test_a_motion_that_escapes_is_blank():
 def test_an_integrator_needs_what_it_steps_by(settings, sentence):
     with pytest.raises(ValueError, match=sentence):
         Integrator(**settings)
+
+
+def test_the_absolute_tolerance_is_a_thousandth_unless_it_is_given():
+    default = gp.methods.runge_kutta_section(THREE_LEVELS, 0.9, 0.3, 4, n_kept=2, rtol=1e-3, atol=1e-6)
+    np.testing.assert_array_equal(Integrator(rtol=1e-3).sections([THREE_LEVELS], 0.9, 0.3, 3, 2)[0], default)
+    other = Integrator(rtol=1e-3, atol=1e-2)
+    assert str(other) == "RK45, rtol 0.001, atol 0.01"
+    assert np.abs(other.sections([THREE_LEVELS], 0.9, 0.3, 3, 2)[0] - default).max() > 1e-6
+    with pytest.raises(ValueError, match="atol must be a finite number above 0, got 0.0"):
+        Integrator(rtol=1e-3, atol=0.0)
