@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gearpair import motion
+from gearpair import ensembles
 
 
 def one_line(n: int) -> np.ndarray:
@@ -14,17 +14,17 @@ def one_line(n: int) -> np.ndarray:
 def test_both_neighbours_of_a_start_count():
     """An error of e steps may mislead the e starts on the left of the line and the e on its right."""
     n, longest = 100, 16
-    found = motion.uncertainty_exponent(one_line(n), longest=longest)
+    found = ensembles.uncertainty_exponent(one_line(n), longest=longest)
     assert found.epsilon.tolist() == [1, 2, 4, 8, 16]
     assert found.share == pytest.approx(2 * found.epsilon / (n - 2 * longest), rel=1e-12)
 
 
 def test_the_largest_error_is_a_sixteenth_of_the_row():
-    assert motion.uncertainty_exponent(one_line(128)).epsilon.tolist() == [1, 2, 4, 8]
-    assert motion.uncertainty_exponent(one_line(127)).epsilon.tolist() == [1, 2, 4]
+    assert ensembles.uncertainty_exponent(one_line(128)).epsilon.tolist() == [1, 2, 4, 8]
+    assert ensembles.uncertainty_exponent(one_line(127)).epsilon.tolist() == [1, 2, 4]
 
 
 def test_an_error_of_half_the_row_leaves_no_start_and_is_refused():
-    assert motion.uncertainty_exponent(one_line(9), longest=4).share[0] > 0.0  # one column of starts is left
+    assert ensembles.uncertainty_exponent(one_line(9), longest=4).share[0] > 0.0  # one column of starts is left
     with pytest.raises(ValueError, match="longest must be from 4 to below half of the plane's 8 columns, got 4"):
-        motion.uncertainty_exponent(one_line(8), longest=4)
+        ensembles.uncertainty_exponent(one_line(8), longest=4)
