@@ -381,6 +381,6 @@ def surround_rows(cells: Cells, points: Array, periods: Integers, rows: Array) -
     series = np.empty(TERMS)
     filled = 0
     for i in range(len(points)):
-        if periods[i] > 0 and surround(cells, points[i, 0], points[i, 1], periods[i], i, rows[filled:], series):
+        if periods[i] > 0 and surround(cells, points[i, 0], points[i, 1], periods[i], float(i), rows[filled:], series):
             filled += periods[i]
     return filled
