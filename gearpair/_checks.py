@@ -1,7 +1,5 @@
 """Bad input gets one sentence: the name, the value, and what is allowed."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Mapping
 from numbers import Integral, Real

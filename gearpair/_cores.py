@@ -1,7 +1,5 @@
 """Work spread over the cores: the kernels release the interpreter's lock, so that threads run in parallel."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any

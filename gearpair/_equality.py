@@ -1,7 +1,5 @@
 """When two results that hold arrays are equal."""
 
-from __future__ import annotations
-
 from dataclasses import fields
 from typing import Any, TypeVar
 

@@ -4,8 +4,6 @@ The cell after a chapter's parameters calls `check_parameters`. papermill runs i
 command line or from a file; `gearpair run` runs the same cell before it starts a kernel.
 """
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Callable, Mapping
 from dataclasses import fields

@@ -3,8 +3,6 @@
 One row for each; whoever shows a quantity takes its name, its symbol and its unit from here.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 # How the letters of plain symbols are spelled, and what stands for them on a page.

@@ -1,7 +1,5 @@
 """Tables for people: aligned as text, ruled as HTML, the same numbers in both."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass

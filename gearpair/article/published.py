@@ -11,8 +11,6 @@ period 1; period 2; period 4; period 2; complex; period 2; period 1
 'claim'
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal
 

@@ -1,7 +1,5 @@
 """Where a run up or down leaves the motion that it was on."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 

@@ -1,7 +1,5 @@
 """The answer without backlash: the linear, time-invariant response of a drive."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

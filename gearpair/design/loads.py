@@ -1,7 +1,5 @@
 """What the teeth of a drive bear in one motion, in SI units."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from gearpair.drive import GearDrive

@@ -1,7 +1,5 @@
 """Many starts of one oscillator: attractors found on a few of them capture the others."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """The integrators of scipy: the article's way to a motion, for comparison."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

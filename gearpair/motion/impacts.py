@@ -1,7 +1,5 @@
 """The impact state of a motion: which flanks touch over its cycle."""
 
-from __future__ import annotations
-
 from enum import StrEnum
 
 import numpy as np

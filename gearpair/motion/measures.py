@@ -1,7 +1,5 @@
 """How hard and how often the teeth of a steady motion strike, exact from its events and its closed form."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 
 import numpy as np

@@ -1,7 +1,5 @@
 """When two periodic orbits are one: the only place where that is decided."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

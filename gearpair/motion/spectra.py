@@ -1,7 +1,5 @@
 """The spectrum of a sampled motion."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

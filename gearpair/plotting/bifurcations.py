@@ -1,7 +1,5 @@
 """Branches of periodic orbits and curves of their bifurcations."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Diagrams over one parameter."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from itertools import groupby
 

@@ -1,7 +1,5 @@
 """Maps over two parameters, and over the plane of starts (X0, X0')."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any

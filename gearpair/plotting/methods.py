@@ -3,8 +3,6 @@
 A segment that was not met, None, gives an Axes that says so.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Pictures of one motion, and of several side by side."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Teeth, what yields in them, and the mesh stiffness that comes of it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any

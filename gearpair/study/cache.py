@@ -1,7 +1,5 @@
 """Executed chapters kept under what they were made from: the same content is not computed twice, and never stale."""
 
-from __future__ import annotations
-
 import json
 import platform
 from collections.abc import Callable, Iterable, Mapping

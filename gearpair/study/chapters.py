@@ -8,8 +8,6 @@ and nothing else may stand in it. The call of `check_parameters` in the cell aft
 checked as.
 """
 
-from __future__ import annotations
-
 import ast
 import io
 import re

@@ -1,7 +1,5 @@
 """A place to work in beside what is made: one run at a time, and nothing of it stays."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import sys

@@ -1,7 +1,5 @@
 """How much work a chapter is with other parameters, told before it starts."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import prod
 from typing import Any

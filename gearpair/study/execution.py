@@ -1,7 +1,5 @@
 """Running a chapter with papermill, in a kernel that is this very interpreter."""
 
-from __future__ import annotations
-
 import logging
 import os
 import threading

@@ -1,7 +1,5 @@
 """The last touches to a built site: what the page builder and its theme leave wrong, and what no page needs."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """One chapter as one web page to hand around: its figures, its style and its mathematics are inside."""
 
-from __future__ import annotations
-
 import base64
 import mimetypes
 import os

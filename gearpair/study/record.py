@@ -1,7 +1,5 @@
 """How a chapter was made, written at its end; and an executed notebook without what names the machine."""
 
-from __future__ import annotations
-
 import os
 import platform
 import re

@@ -1,7 +1,5 @@
 """Several chapters at once, each in a process of its own; what is in the cache is not computed again."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

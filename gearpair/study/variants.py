@@ -13,8 +13,6 @@
           reading: swapped
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

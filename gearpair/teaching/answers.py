@@ -1,7 +1,5 @@
 """Answers out of a student's notebook as plain data, so that nothing of the student's runs where marks are given."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The data behind a figure: what is graded, whatever it looks like."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Marks for one graded cell, item by item, each with a sentence that the student can use."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from numbers import Real

@@ -1,7 +1,5 @@
 """A gear pair, an oscillator and a drive for every student or group, from nothing but the id."""
 
-from __future__ import annotations
-
 import hashlib
 import math
 import re

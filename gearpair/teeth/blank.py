@@ -1,7 +1,5 @@
 """The gear as a body that turns: its inertia from the drawing."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -8,8 +8,6 @@ tooth's centre line (alpha_2 is half the tooth's angle on the base circle). It c
 ``cos(alpha_1) (y_C - y) - sin(alpha_1) h_C``.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -6,8 +6,6 @@ on any other tooth is a sum that converges like 1 / n^3. This is the model behin
 without the fit and for every tooth rather than the loaded one alone.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Tooth stiffness by ISO 6336-1, method B: the number that gear engineers would compare with."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -76,14 +76,15 @@ def test_a_known_attractor_captures_at_once_and_is_copied():
     assert near.final[0].tolist() == pytest.approx(known.settled.points[0, 1].tolist(), abs=1e-12)
 
 
-def test_without_a_neighbourhood_a_close_return_to_a_stable_orbit_counts():
-    """Room for no neighbourhood that could hold the motion: those of the known cycle are too small to matter."""
+def test_an_orbit_that_is_known_is_not_found_again():
+    """Of a neighbourhood that is small the motion hears late, but no search on its way finds the orbit anew."""
     settings = SettleSettings(n_exponent=200, n_samples=6, n_transient=400, max_period=8)
     known = known_attractors(DAMPED, np.array([[1.0, 0.0]]), settings)
     shrunk = known.neighbourhoods.copy()
-    shrunk[:, 2:5] *= 1e24
+    shrunk[:, 2:5] *= 1e12
     out = settled([DAMPED], [(1.0, 0.0)], known=Known(known.settled, shrunk))
-    assert (out.status[0], out.period[0]) == (PERIODIC, 1)
+    assert (out.status[0], out.period[0], out.attractor[0]) == (PERIODIC, 1, 0)
+    assert out.way[0, 0] > settled([DAMPED], [(1.0, 0.0)]).way[0, 0]
 
 
 def test_after_the_transient_a_stable_orbit_that_is_approached_counts():

@@ -1,7 +1,5 @@
 """The published boundaries beside bifurcations and beside the boundaries that readings draw."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np

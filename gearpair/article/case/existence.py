@@ -1,7 +1,5 @@
 """The motions that a reading has at all, reached from any start, whatever the protocol of a diagram."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise

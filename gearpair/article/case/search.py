@@ -1,7 +1,5 @@
 """Was it the step? Published boundaries that a diagram meets, those met by chance, and the phase that each asks for."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 

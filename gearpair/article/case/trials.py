@@ -1,7 +1,5 @@
 """All readings, the ways to draw the article's diagrams, and what scores: a `Trial` is a reading and a `Protocol`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields
 from itertools import product

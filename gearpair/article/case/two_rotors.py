@@ -1,7 +1,5 @@
 """The article's derivation, checked: two rotors in SI units beside the one oscillator that is made of them."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -14,8 +14,6 @@ third answer, that it nearly holds, with another number. `verdict_word` makes a 
 What no computation decides has a word of its own and is not counted: a *definition*, an *assumption*, an *advice*.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
