@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gearpair._checks import check_count
-from gearpair.bifurcations.branches import LARGEST_STEP, Branch, continue_orbit, largest_x
+from gearpair.bifurcations.branches import SIZES, Branch, continue_orbit, largest_x
 from gearpair.bifurcations.doubling import doubled_orbit
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.bifurcations.orbits import PeriodicOrbit, find_orbits, periodic_orbit
@@ -22,7 +22,7 @@ def find_branches(
     max_period: int = 4,
     n_values: int = 11,
     n_starts: int = 100,
-    largest_step: float = LARGEST_STEP,
+    largest_step: float = SIZES.largest,
 ) -> list[Branch]:
     """The branches of periodic orbits that a search finds in a range of one parameter.
 
@@ -49,11 +49,6 @@ def find_branches(
     -------
     list of Branch
         In the order found. A finite search can miss some.
-
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
 
     Examples
     --------
