@@ -32,18 +32,12 @@ def find_branches(
     Parameters
     ----------
     osc : Oscillator
-    parameter : str
-        One of ``osc.parameters``.
-    lower, upper : float
-        The range of the parameter.
-    max_period : int
-        The longest period followed, in mesh periods.
+    parameter, lower, upper, largest_step
+        As in `continue_orbit`.
+    max_period, n_starts
+        As in `find_orbits`, at each value; no longer period is followed either.
     n_values : int
         Values at which orbits are looked for.
-    n_starts : int
-        Starts per value and period, as in `find_orbits`.
-    largest_step : float
-        As in `continue_orbit`.
 
     Returns
     -------

@@ -116,20 +116,13 @@ def continue_bifurcation(
     bounds : mapping of str to (float, float)
         Two parameter names and the range of each, which the bifurcation lies in, for example
         ``{"mesh_frequency": (0.6, 1.8), "damping_ratio": (0.0, 0.1)}``.
-    largest_step : float
-        The longest step in arc length, in units of X, X' and the ranges.
-    max_steps : int
-        Steps at most in each direction.
-
-    Raises
-    ------
-    RuntimeError
-        Where a parameter cannot be varied, as a contact ratio next to the end of what is possible.
+    largest_step, max_steps
+        As in `continue_orbit`, and so are the errors.
 
     Notes
     -----
-    The orbit's two equations are extended by (mu_1 - 1)(mu_2 - 1) = 0, (mu_1 + 1)(mu_2 + 1) = 0 or by
-    the extremum's distance from X = +-1 = 0, and followed by pseudo-arclength.
+    The orbit's two equations are extended by the function whose zero is the bifurcation, see `continue_orbit`, and
+    followed by pseudo-arclength.
 
     Examples
     --------

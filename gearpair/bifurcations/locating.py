@@ -60,7 +60,7 @@ def merging(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> Step[Cycle
     collapsed = np.linalg.norm(after) < TOUCHING  # the step has landed on the shorter orbit's own branch
     if before @ after >= 0.0 and not collapsed:
         return None
-    share = before @ (before - after) / np.sum((before - after) ** 2)
+    share = 0.0 if collapsed else before @ (before - after) / np.sum((before - after) ** 2)
     if not collapsed and np.linalg.norm(before + share * (after - before)) > MERGED * np.linalg.norm(before - after):
         return None
     from scipy.optimize import root  # here, so that importing gearpair stays quick
@@ -72,11 +72,10 @@ def merging(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> Step[Cycle
         found = half.equations(u)
         return np.append(found[0], half.cycle(u).test("flip")) if found is not None else np.full(3, np.inf)
 
-    middle = a.u.copy() if collapsed else (1.0 - share) * a.u + share * b.u
-    middle[:2] += 0.5 * before if collapsed else 0.5 * ((1.0 - share) * before + share * after)
+    middle = (1.0 - share) * a.u + share * b.u
+    middle[:2] += 0.5 * ((1.0 - share) * before + share * after)
     solution = root(flip, middle, tol=1e-13)
-    lost = np.max(np.abs(solution.fun)) > 1e-9 or np.linalg.norm(solution.x - middle) > np.linalg.norm(b.u - a.u)
-    if lost:
+    if np.max(np.abs(solution.fun)) > 1e-9 or np.linalg.norm(solution.x - middle) > np.linalg.norm(b.u - a.u):
         return a if collapsed else None
     return Step(solution.x, a.tangent, int(solution.nfev), problem.cycle(solution.x))
 

@@ -198,11 +198,6 @@ def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     result : xarray.Dataset
         Of `gearpair.parameter_map` with two axes, evenly spaced: the first is drawn upwards, the second to the right.
 
-    Raises
-    ------
-    ValueError
-        For a map with another number of axes.
-
     Examples
     --------
     >>> import gearpair as gp

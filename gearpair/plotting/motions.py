@@ -197,14 +197,9 @@ def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequen
     Parameters
     ----------
     states : mapping of Motion or str to SteadyState
-        By name, as `gearpair.ensembles.representatives` gives them.
+        At least one, by name, as `gearpair.ensembles.representatives` gives them.
     parameter : str
         Whose value is told beside the name.
-
-    Raises
-    ------
-    ValueError
-        For no states.
 
     Examples
     --------

@@ -29,7 +29,7 @@ class Unreadable:
 
 
 def report(names: Iterable[str], answers: Mapping[str, Any]) -> str:
-    """Some of a notebook's variables as one text; those that do not exist are left out.
+    """Some of a notebook's variables as one text for `read_report`; those that do not exist are left out.
 
     Parameters
     ----------
@@ -37,16 +37,6 @@ def report(names: Iterable[str], answers: Mapping[str, Any]) -> str:
         The variables asked for.
     answers : mapping of str to object
         All variables, such as ``globals()``.
-
-    Returns
-    -------
-    str
-        For `read_report`.
-
-    Raises
-    ------
-    ValueError
-        For answers that are too long to be meant.
 
     Examples
     --------

@@ -38,15 +38,6 @@ def check_student_id(student_id: object) -> str:
     student_id : str
         Letters, digits and ``. _ @ -``, 2 to 64 of them, the first a letter or a digit.
 
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    ValueError
-        For what cannot be an id, an empty one included.
-
     Examples
     --------
     >>> check_student_id(" Ada.Lovelace ")
