@@ -141,9 +141,9 @@ def walk_both_ways(
         steps: list[Step[Data]] = []
         for step in _steps_along(own, start, direction, sizes):
             if steps:
-                passed = _first_bound_passed(own, steps[-1], step, bounds)
-                if passed is not None:
-                    return steps + _at_bound(own, steps[-1], step, *passed), End.BOUND
+                on_bound = _at_bound(own, steps[-1], step, bounds)
+                if on_bound is not None:
+                    return steps + on_bound, End.BOUND
                 ending = own.ending(steps[-1], step)
                 if ending is not None:
                     return steps + ending[0], ending[1]
@@ -187,23 +187,19 @@ def _comes_back(steps: list[Step[Data]], step: Step[Data]) -> bool:
     return bool(away < stride and step.tangent @ steps[0].tangent > ALIGNED)
 
 
-def _first_bound_passed(
+def _at_bound(
     problem: Problem[Data], inside: Step[Data], outside: Step[Data], bounds: Sequence[tuple[float, float]]
-) -> tuple[float, int, float] | None:
-    """Of the bounds between two steps the first: at which share of the chord, of which unknown, its scaled value."""
+) -> list[Step[Data]] | None:
+    """The solution on the first bound between two steps, no more where it is `inside` itself; None where none lies."""
     passed = []
     before, after = problem.values(inside.u), problem.values(outside.u)
     for k, (lower, upper) in enumerate(bounds):
         if not lower <= after[k] <= upper:
             bound = lower if after[k] < lower else upper
             passed.append(((bound - before[k]) / (after[k] - before[k]), k + 2, bound / problem.scales[k]))
-    return min(passed, default=None)
-
-
-def _at_bound(
-    problem: Problem[Data], inside: Step[Data], outside: Step[Data], share: float, k: int, bound: float
-) -> list[Step[Data]]:
-    """The solution on the bound of unknown `k`, between two steps; none where the walk was on it already."""
+    if not passed:
+        return None
+    share, k, bound = min(passed)
     guess = inside.u + share * (outside.u - inside.u)
     guess[k] = bound
     found = correct(problem.equations, guess, np.eye(len(guess))[k])

@@ -97,9 +97,9 @@ def doubling_cascade(flip: Bifurcation, levels: int = 5) -> list[Bifurcation]:
             break
         value = orbit.oscillator.parameter(last.parameter)
         side = 1.0 if value > last.value else -1.0
-        lower, upper = sorted((last.value - 0.05 * side * width, last.value + side * width))
+        reach = (last.value - 0.05 * side * width, last.value + side * width, value)
         branch = continue_orbit(
-            orbit, last.parameter, min(lower, value), max(upper, value), largest_step=0.5 * SIZES.largest, max_steps=400
+            orbit, last.parameter, min(reach), max(reach), largest_step=0.5 * SIZES.largest, max_steps=400
         )
         beyond = [b for b in branch.bifurcations if b.kind == "flip" and side * (b.value - last.value) > 0.0]
         if not beyond:

@@ -128,8 +128,8 @@ def _edge(branch: Branch, i: int) -> float:
 def bifurcation_table(branches: Iterable[Branch], *, digits: int = 5) -> Table:
     """Every bifurcation of a set of branches, by rising parameter.
 
-    It has kind, value (to `digits` decimals), the orbit's period, contacts per cycle on the drive and coast side (before
-    and after a grazing), and impact state.
+    It has kind, value (to `digits` decimals), the orbit's period, contacts per cycle on the drive and coast side
+    (before and after a grazing), and impact state.
 
     Examples
     --------
