@@ -23,12 +23,9 @@ MAX_EXTREMA_PER_PERIOD = 64
 
 @dataclass(frozen=True)
 class Cycle:
-    """A cycle from one of its section points on, as a `PeriodicOrbit` has it, and its extrema.
+    """A cycle from one of its section points on, as a `PeriodicOrbit` has it, and its `extrema`.
 
-    Attributes
-    ----------
-    extrema : ndarray of float, shape (n, 2)
-        Mesh periods since ``points[0]`` and X where X' = 0.
+    Of shape (n, 2), they are the mesh periods since ``points[0]`` and X where X' = 0.
     """
 
     points: NDArray[np.float64]

@@ -27,7 +27,8 @@ def find_branches(
     """The branches of periodic orbits that a search finds in a range of one parameter.
 
     Orbits are looked for from many starts at evenly spaced values; each that lies on no branch yet is
-    continued, and so is the doubled branch of each flip, up to `max_period`.
+    continued, and so is the doubled branch of each flip, up to `max_period`. They come in the order found;
+    a finite search can miss some.
 
     Parameters
     ----------
@@ -38,11 +39,6 @@ def find_branches(
         As in `find_orbits`, at each value; no longer period is followed either.
     n_values : int
         Values at which orbits are looked for.
-
-    Returns
-    -------
-    list of Branch
-        In the order found. A finite search can miss some.
 
     Examples
     --------

@@ -16,15 +16,7 @@ from gearpair.bifurcations.orbits import PeriodicOrbit, orbit_at
 def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
     """An orbit of twice the period close to a flip: the start of the doubled branch.
 
-    Parameters
-    ----------
-    bifurcation : Bifurcation
-        Of kind ``"flip"``.
-
-    Returns
-    -------
-    PeriodicOrbit
-        At a parameter value next to the flip's, on the side where the doubled branch is born.
+    It is at a parameter value next to the flip's, on the side where the doubled branch is born.
 
     Raises
     ------
@@ -59,7 +51,10 @@ def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
 
 
 def doubling_cascade(flip: Bifurcation, levels: int = 5) -> list[Bifurcation]:
-    """The flips of a period-doubling sequence, from its first on.
+    """The flips of a period-doubling sequence, from its first on, each of twice the period of the one before it.
+
+    They are fewer than `levels` where a branch has no further flip (a fold or a grazing ended the sequence) or the next
+    could not be resolved.
 
     Parameters
     ----------
@@ -67,12 +62,6 @@ def doubling_cascade(flip: Bifurcation, levels: int = 5) -> list[Bifurcation]:
         Of kind ``"flip"``; the doubled branch is followed on the side where it is born.
     levels : int
         How many flips at most, the first included.
-
-    Returns
-    -------
-    list of Bifurcation
-        Each of twice the period of the one before it; shorter than `levels` where a branch has no
-        further flip (a fold or a grazing ended the sequence) or the next could not be resolved.
 
     Notes
     -----

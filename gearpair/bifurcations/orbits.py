@@ -113,6 +113,8 @@ class PeriodicOrbit:
 def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> PeriodicOrbit:
     """The periodic orbit near (x, v), by Newton's method on the `period`-fold map with its exact derivative.
 
+    Look at its `status` first: where that is ``"diverged"`` there is no orbit to describe.
+
     Parameters
     ----------
     osc : Oscillator
@@ -120,11 +122,6 @@ def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> Periodic
         A guess of one of its points on the section.
     period : int
         In mesh periods, at least 1; the orbit found may have a shorter one that divides it.
-
-    Returns
-    -------
-    PeriodicOrbit
-        Look at its `status` first: where that is ``"diverged"`` there is no orbit to describe.
 
     Examples
     --------
@@ -181,7 +178,9 @@ def find_orbits(
     v: tuple[float, float] = (-1.5, 1.5),
     n_starts: int = 400,
 ) -> list[PeriodicOrbit]:
-    """The distinct periodic orbits that Newton's method finds from many starts.
+    """The distinct periodic orbits that Newton's method finds from many starts, by period and smallest X.
+
+    All have converged. A finite search can miss some.
 
     Parameters
     ----------
@@ -192,11 +191,6 @@ def find_orbits(
         The rectangle of starts.
     n_starts : int
         Starts per period, spread evenly (an additive recurrence of low discrepancy, the same at every call).
-
-    Returns
-    -------
-    list of PeriodicOrbit
-        Converged, each once, by period and smallest X. A finite search can miss some.
 
     Examples
     --------

@@ -21,7 +21,9 @@ SNAP = 2e-4  # relative distance within which the end of a stable range is the b
 def coexistence(
     branches: list[Branch], lower: float, upper: float, *, shortest: float = 0.0
 ) -> list[tuple[float, float, tuple[Motion, ...]]]:
-    """Which stable orbits of a set of branches exist together, range by range.
+    """Which stable orbits of a set of branches exist together, range by range: start, end, and their motions.
+
+    Orbits of one period and impact state on one branch count once each.
 
     Parameters
     ----------
@@ -31,12 +33,6 @@ def coexistence(
         The range of the parameter.
     shortest : float
         Ranges narrower than this are left out.
-
-    Returns
-    -------
-    list of (float, float, tuple of Motion)
-        Start, end, and the stable orbits there with their impact states, in order. Orbits of one period and impact
-        state on one branch count once each.
 
     Examples
     --------
@@ -67,17 +63,9 @@ def coexistence(
 
 
 def stable_ranges(branches: Iterable[Branch], *, shortest: float = 0.0) -> tuple[MotionRange, ...]:
-    """Where each kind of motion is stable on some branch, between the bifurcations that bound it.
+    """Where each kind of motion is stable on some branch, between the bifurcations that bound it; see `coexistence`.
 
-    Parameters
-    ----------
-    branches, shortest
-        As in `coexistence`.
-
-    Returns
-    -------
-    tuple of MotionRange
-        By rising lower end; what overlaps or touches is one range, whatever the impact states.
+    The ranges come by rising lower end; what overlaps or touches is one range, whatever the impact states.
 
     Examples
     --------

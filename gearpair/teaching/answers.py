@@ -17,13 +17,7 @@ LONGEST = 4_000_000  # characters of one report: some hundred thousand numbers
 
 @dataclass(frozen=True)
 class Unreadable:
-    """An answer that is neither a number, a text, a truth value, a list of these, nor a figure.
-
-    Attributes
-    ----------
-    kind : str
-        What it is instead.
-    """
+    """An answer that is no number, text, truth value, list of these or figure; its `kind` is what it is instead."""
 
     kind: str
 
@@ -50,12 +44,9 @@ def report(names: Iterable[str], answers: Mapping[str, Any]) -> str:
 
 
 def read_report(text: str) -> dict[str, Any]:
-    """The answers in a report; of what cannot be read, none.
+    """The answers in a text of `report`, or of somebody who would like it to be taken for that.
 
-    Parameters
-    ----------
-    text : str
-        Made by `report`, or by somebody who would like it to be taken for that.
+    Of what cannot be read there are none.
 
     Returns
     -------
