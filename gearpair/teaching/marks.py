@@ -46,7 +46,7 @@ class Marks:
         return "0" if self.missing else "every answer asked for is there; whether they are right, the grading will tell"
 
     def expect(self, **answers: Any) -> None:
-        """Say which answers, by name, are still missing (None, or an ellipsis): the part of a test that students see."""
+        """Say which answers, by name, are still missing (None, or an ellipsis): the part of a test students see."""
         self.missing = [name for name, value in answers.items() if value is None or value is ...]
         for name in self.missing:
             print(f"{name}: no answer yet")
