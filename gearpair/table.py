@@ -27,11 +27,6 @@ class Table:
         As many cells each as there are columns; numbers stand to the right. A cell is shown as `str` gives it, so
         format floats first.
 
-    Raises
-    ------
-    ValueError
-        For a row with more or fewer cells than there are columns.
-
     Examples
     --------
     >>> Table(["motion", "from", "to"], [["period 2", "0.700", "0.766"], ["chaos", "0.81", "0.814"]])

@@ -1,54 +1,74 @@
-"""A curve of solutions walked both ways from one of them, within bounds: branches of orbits, curves of bifurcations."""
+"""A curve of solutions of n equations in n + 1 unknowns, walked both ways by pseudo-arclength (Keller, 1977)."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from copy import copy
-from enum import StrEnum
-from typing import Protocol
+from dataclasses import dataclass
+from typing import Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair.bifurcations._arclength import Data, Step, Vector, correct, follow, null_vector
+from gearpair._checks import check_count, check_number
+from gearpair.motion.outcome import Outcome
 
-Bounds = Sequence[tuple[float, float]]  # of each parameter
+Vector = NDArray[np.float64]
+Data = TypeVar("Data")
+# Residual (n,) and Jacobian (n, n + 1) at u; None where the equations cannot be evaluated.
+Equations = Callable[[Vector], tuple[Vector, NDArray[np.float64]] | None]
+NEWTON_STEPS = 12
+QUICK = 4  # Newton steps below which the next arc step may grow
+CLOSE = 1e-11  # convergence: the last Newton step, in scaled unknowns
+LEAST_COSINE = 0.97  # between successive tangents, below which a step is repeated, halved
 ON_BOUND = 1e-9  # a solution this close to a bound, in scaled unknowns, is on it
 ALIGNED = 0.5  # cosine between the tangents of a walk's first step and of the one that comes back to it
 
 
-class End(StrEnum):
-    """Why a branch or a curve ends; a string, so that it compares with its name."""
+class End(Outcome):
+    """Why a branch or a curve ends: a string, with a `remedy` that says what a user may do.
 
-    BOUND = "bound"
-    CLOSED = "closed"
-    MERGED = "merged"
-    TOO_LARGE = "too_large"
-    MAX_STEPS = "max_steps"
-    LOST = "lost"
+    Examples
+    --------
+    >>> End("closed").remedy
+    'it came back to its start: there is no more of it'
+    """
 
-    @property
-    def remedy(self) -> str:
-        """A sentence: what the end means and what a user may do.
+    BOUND = "bound", "it reached a bound of a parameter: widen the range to follow it further"
+    CLOSED = "closed", "it came back to its start: there is no more of it"
+    MERGED = (
+        "merged",
+        "its orbit became one of half its period, at a flip of that orbit: continue that one from there",
+    )
+    TOO_LARGE = (
+        "too_large",
+        "its orbit grew far beyond the backlash, as by contact's parametric resonance: "
+        "raise damping_ratio, or narrow the range",
+    )
+    MAX_STEPS = "max_steps", "it was cut short after max_steps steps: raise max_steps"
+    LOST = (
+        "lost",
+        "no further step converged, as at a degenerate point: continue from an orbit beyond it, "
+        "or change another parameter a little",
+    )
 
-        Examples
-        --------
-        >>> End("closed").remedy
-        'it came back to its start: there is no more of it'
-        """
-        return REMEDIES[self]
+
+class StepSizes(NamedTuple):
+    """The first, the smallest and the largest step, in scaled arc length."""
+
+    first: float
+    smallest: float
+    largest: float
 
 
-REMEDIES = {
-    End.BOUND: "it reached a bound of a parameter: widen the range to follow it further",
-    End.CLOSED: "it came back to its start: there is no more of it",
-    End.MERGED: "its orbit became one of half its period, at a flip of that orbit: continue that one from there",
-    End.TOO_LARGE: "its orbit grew far beyond the backlash, as by contact's parametric resonance: "
-    "raise damping_ratio, or narrow the range",
-    End.MAX_STEPS: "it was cut short after max_steps steps: raise max_steps",
-    End.LOST: "no further step converged, as at a degenerate point: continue from an orbit beyond it, "
-    "or change another parameter a little",
-}
+@dataclass(frozen=True)
+class Step(Generic[Data]):
+    """A point of the curve, in scaled unknowns."""
+
+    u: Vector
+    tangent: Vector
+    newton_steps: int
+    data: Data
 
 
 class Problem(Protocol[Data]):
@@ -57,7 +77,7 @@ class Problem(Protocol[Data]):
     scales: NDArray[np.float64]
 
     def equations(self, u: Vector) -> tuple[Vector, NDArray[np.float64]] | None:
-        """Residual and Jacobian; None where they cannot be evaluated."""
+        """As `Equations`."""
 
     def describe(self, u: Vector) -> Data:
         """What is kept of the solution `u`, to which the walk has just come."""
@@ -69,35 +89,47 @@ class Problem(Protocol[Data]):
         """Where the walk ends at `step`, after `last`: the steps to end with, and why; None where it goes on."""
 
 
+def null_vector(matrix: NDArray[np.float64]) -> Vector:
+    """The unit vector that a matrix maps nearest to zero."""
+    return np.linalg.svd(matrix)[2][-1]
+
+
+def correct(equations: Equations, guess: Vector, normal: Vector) -> tuple[Vector, Vector, int] | None:
+    """Newton's method in the plane through `guess` across `normal`: (u, tangent, steps), or None."""
+    u = guess.copy()
+    for step in range(1, NEWTON_STEPS + 1):
+        found = equations(u)
+        if found is None:
+            return None
+        residual, jacobian = found
+        system = np.vstack([jacobian, normal])
+        try:
+            change = np.linalg.solve(system, -np.append(residual, normal @ (u - guess)))
+        except np.linalg.LinAlgError:
+            return None
+        if not np.max(np.abs(change)) < 1.0:
+            return None
+        u = u + change
+        if np.max(np.abs(change)) < CLOSE:
+            tangent = null_vector(jacobian)
+            return u, tangent if tangent @ normal > 0.0 else -tangent, step
+    return None
+
+
 def walk_both_ways(
     problem: Problem[Data],
     start: Vector,
-    bounds: Bounds,
-    *,
-    first: float,
-    smallest: float,
-    largest: float,
+    bounds: Sequence[tuple[float, float]],
+    sizes: StepSizes,
     max_steps: int,
 ) -> tuple[list[Step[Data]], tuple[End, End]]:
     """The steps through the solution `start`, the first parameter rising there, and why they end at either end.
 
-    Parameters
-    ----------
-    problem : Problem
-        Each way works on a copy of its own, which may remember what it passed.
-    start : ndarray of float, shape (n + 1,)
-    bounds : sequence of (float, float)
-        Of each parameter.
-    first, smallest, largest : float
-        Steps in scaled arc length.
-    max_steps : int
-        Steps at most each way.
-
-    Raises
-    ------
-    RuntimeError
-        Where the equations cannot be evaluated at the start.
+    It takes `max_steps` at most each way within `bounds` of the parameters, each way on a copy of the problem, which
+    may remember what it passed.
     """
+    check_number("largest_step", sizes.largest, above=0.0)
+    check_count("max_steps", max_steps)
     found = problem.equations(start)
     if found is None:
         raise RuntimeError(f"the motion cannot be followed from X = {start[0]:.5g}, X' = {start[1]:.5g}")
@@ -106,13 +138,12 @@ def walk_both_ways(
 
     def walk(direction: Vector) -> tuple[list[Step[Data]], End]:
         own = copy(problem)
-        way = follow(own.equations, own.describe, start, direction, first=first, smallest=smallest, largest=largest)
         steps: list[Step[Data]] = []
-        for step in way:
+        for step in _steps_along(own, start, direction, sizes):
             if steps:
-                passed = _first_bound_passed(own, steps[-1], step, bounds)
-                if passed is not None:
-                    return steps + _at_bound(own, steps[-1], step, *passed), End.BOUND
+                on_bound = _at_bound(own, steps[-1], step, bounds)
+                if on_bound is not None:
+                    return steps + on_bound, End.BOUND
                 ending = own.ending(steps[-1], step)
                 if ending is not None:
                     return steps + ending[0], ending[1]
@@ -130,6 +161,23 @@ def walk_both_ways(
     return back[:0:-1] + forth, (back_end, forth_end)
 
 
+def _steps_along(problem: Problem[Data], u: Vector, tangent: Vector, sizes: StepSizes) -> Iterator[Step[Data]]:
+    """The solution `u` and those beyond it along its tangent, until no step converges.
+
+    The step grows after quick convergence and shrinks after none or at a sharp bend.
+    """
+    yield Step(u, tangent, 0, problem.describe(u))
+    size = sizes.first
+    while size >= sizes.smallest:
+        corrected = correct(problem.equations, u + size * tangent, tangent)
+        if corrected is None or (corrected[1] @ tangent < LEAST_COSINE and size > 8.0 * sizes.smallest):
+            size *= 0.5
+            continue
+        u, tangent, steps = corrected
+        yield Step(u, tangent, steps, problem.describe(u))
+        size = min(sizes.largest, size * (1.5 if steps <= QUICK else 0.8))
+
+
 def _comes_back(steps: list[Step[Data]], step: Step[Data]) -> bool:
     """Whether the walk is back at its start: nearer to it than its last step was long, and on its way again.
 
@@ -139,23 +187,19 @@ def _comes_back(steps: list[Step[Data]], step: Step[Data]) -> bool:
     return bool(away < stride and step.tangent @ steps[0].tangent > ALIGNED)
 
 
-def _first_bound_passed(
-    problem: Problem[Data], inside: Step[Data], outside: Step[Data], bounds: Bounds
-) -> tuple[float, int, float] | None:
-    """Of the bounds between two steps the first: at which share of the chord, of which unknown, its scaled value."""
+def _at_bound(
+    problem: Problem[Data], inside: Step[Data], outside: Step[Data], bounds: Sequence[tuple[float, float]]
+) -> list[Step[Data]] | None:
+    """The solution on the first bound between two steps, no more where it is `inside` itself; None where none lies."""
     passed = []
     before, after = problem.values(inside.u), problem.values(outside.u)
     for k, (lower, upper) in enumerate(bounds):
         if not lower <= after[k] <= upper:
             bound = lower if after[k] < lower else upper
             passed.append(((bound - before[k]) / (after[k] - before[k]), k + 2, bound / problem.scales[k]))
-    return min(passed, default=None)
-
-
-def _at_bound(
-    problem: Problem[Data], inside: Step[Data], outside: Step[Data], share: float, k: int, bound: float
-) -> list[Step[Data]]:
-    """The solution on the bound of unknown `k`, between two steps; none where the walk was on it already."""
+    if not passed:
+        return None
+    share, k, bound = min(passed)
     guess = inside.u + share * (outside.u - inside.u)
     guess[k] = bound
     found = correct(problem.equations, guess, np.eye(len(guess))[k])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gearpair._checks import check_count
-from gearpair.bifurcations.branches import LARGEST_STEP, Branch, continue_orbit, largest_x
+from gearpair.bifurcations.branches import SIZES, Branch, continue_orbit, largest_x
 from gearpair.bifurcations.doubling import doubled_orbit
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.bifurcations.orbits import PeriodicOrbit, find_orbits, periodic_orbit
@@ -22,38 +22,23 @@ def find_branches(
     max_period: int = 4,
     n_values: int = 11,
     n_starts: int = 100,
-    largest_step: float = LARGEST_STEP,
+    largest_step: float = SIZES.largest,
 ) -> list[Branch]:
     """The branches of periodic orbits that a search finds in a range of one parameter.
 
     Orbits are looked for from many starts at evenly spaced values; each that lies on no branch yet is
-    continued, and so is the doubled branch of each flip, up to `max_period`.
+    continued, and so is the doubled branch of each flip, up to `max_period`. They come in the order found;
+    a finite search can miss some.
 
     Parameters
     ----------
     osc : Oscillator
-    parameter : str
-        One of ``osc.parameters``.
-    lower, upper : float
-        The range of the parameter.
-    max_period : int
-        The longest period followed, in mesh periods.
+    parameter, lower, upper, largest_step
+        As in `continue_orbit`.
+    max_period, n_starts
+        As in `find_orbits`, at each value; no longer period is followed either.
     n_values : int
         Values at which orbits are looked for.
-    n_starts : int
-        Starts per value and period, as in `find_orbits`.
-    largest_step : float
-        As in `continue_orbit`.
-
-    Returns
-    -------
-    list of Branch
-        In the order found. A finite search can miss some.
-
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
 
     Examples
     --------

@@ -8,19 +8,17 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_number
 from gearpair._equality import equal_by_value
-from gearpair.bifurcations._arclength import Step, Vector
-from gearpair.bifurcations._cycle import Cycle
-from gearpair.bifurcations._orbit_problem import OrbitProblem
-from gearpair.bifurcations._walk import End, walk_both_ways
+from gearpair.bifurcations._orbit_problem import Cycle, OrbitProblem
+from gearpair.bifurcations._walk import End, Step, StepSizes, walk_both_ways
 from gearpair.bifurcations.locating import Bifurcation, bifurcations_between, merging
 from gearpair.bifurcations.orbits import PeriodicOrbit
-from gearpair.motion.impacts import ImpactState, impact_state
+from gearpair.motion.impacts import IMPACT_STATES, ImpactState, impact_codes
 from gearpair.motion.stability import multipliers_of
 from gearpair.oscillator import Oscillator
 
-FIRST_STEP, SMALLEST_STEP, LARGEST_STEP = 2e-3, 1e-9, 2e-2  # in scaled arc length
+SIZES = StepSizes(first=2e-3, smallest=1e-9, largest=2e-2)
 LARGEST_X = 20.0  # where branches that run to infinity, by contact's parametric resonance, are left; see largest_x
 
 
@@ -73,7 +71,7 @@ class Branch:
 
     def impact_states(self) -> list[ImpactState]:
         """The impact state of each orbit."""
-        return [impact_state(low, high) for low, high in zip(self.x_min.tolist(), self.x_max.tolist(), strict=True)]
+        return [IMPACT_STATES[code] for code in impact_codes(self.x_min, self.x_max)]
 
     def __repr__(self) -> str:
         """One line: how long it is, between what, and what lies on it."""
@@ -91,7 +89,7 @@ def continue_orbit(
     lower: float,
     upper: float,
     *,
-    largest_step: float = LARGEST_STEP,
+    largest_step: float = SIZES.largest,
     max_steps: int = 2000,
 ) -> Branch:
     """The branch of periodic orbits through `orbit` along one parameter, in both directions.
@@ -109,14 +107,8 @@ def continue_orbit(
     max_steps : int
         Steps at most in each direction.
 
-    Returns
-    -------
-    Branch
-
     Raises
     ------
-    ValueError
-        For an orbit that has not converged, an unknown parameter, or a range that leaves out its value.
     RuntimeError
         Where the parameter cannot be varied, as a contact ratio next to the end of what is possible.
 
@@ -144,21 +136,16 @@ def continue_orbit(
         raise ValueError(
             f"lower and upper must enclose the orbit's {parameter} = {value}, got lower = {lower} and upper = {upper}"
         )
-    check_number("largest_step", largest_step, above=0.0)
-    check_count("max_steps", max_steps)
     problem = _BranchProblem(orbit.oscillator, orbit.period, {parameter: upper - lower})
-    steps, ends = walk_both_ways(
-        problem,
-        problem.unknowns(*orbit.points[0]),
-        [(lower, upper)],
-        first=FIRST_STEP,
-        smallest=SMALLEST_STEP,
-        largest=largest_step,
-        max_steps=max_steps,
-    )
+    start, sizes = problem.unknowns(*orbit.points[0]), SIZES._replace(largest=largest_step)
+    steps, ends = walk_both_ways(problem, start, [(lower, upper)], sizes, max_steps)
     found = [(b, i) for i, (a, c) in enumerate(pairwise(steps)) for b in bifurcations_between(problem, a, c)]
     cycles = [step.data for step in steps]
-    multipliers = multipliers_of(np.array([c.monodromy for c in cycles]).reshape(-1, 2, 2))
+    multipliers = multipliers_of(np.array([c.monodromy for c in cycles]))
+    stable = np.abs(multipliers[:, 0]) < 1.0
+    for end, last, beside in zip(ends, (0, -1), (1, -2), strict=True):
+        if end == End.MERGED:  # rounding does not decide
+            stable[last] = stable[beside]
     return Branch(
         parameter=parameter,
         period=orbit.period,
@@ -166,7 +153,7 @@ def continue_orbit(
         values=np.array([problem.values(step.u)[0] for step in steps]),
         points=np.array([c.points for c in cycles]),
         multipliers=multipliers,
-        stable=_stable(multipliers, ends),
+        stable=stable,
         x_min=np.array([c.x_min for c in cycles]),
         x_max=np.array([c.x_max for c in cycles]),
         contacts=np.array([c.contacts for c in cycles]),
@@ -177,16 +164,6 @@ def continue_orbit(
     )
 
 
-def _stable(multipliers: NDArray[np.complex128], ends: tuple[End, End]) -> NDArray[np.bool_]:
-    """Which orbits of a branch are stable; rounding does not decide where it merges."""
-    stable = np.abs(multipliers[:, 0]) < 1.0
-    if ends[0] == End.MERGED:
-        stable[0] = stable[1]
-    if ends[1] == End.MERGED:
-        stable[-1] = stable[-2]
-    return stable
-
-
 def largest_x(osc: Oscillator) -> float:
     """Where a branch is left: `LARGEST_X` times the static position, 1 + |F_m| / (mean stiffness)."""
     return LARGEST_X * (1.0 + abs(osc.mean_force) / osc.stiffness.mean)
@@ -195,9 +172,7 @@ def largest_x(osc: Oscillator) -> float:
 class _BranchProblem(OrbitProblem):
     """A branch of orbits: it ends where its orbit merges with a shorter one or grows without bound."""
 
-    def describe(self, u: Vector) -> Cycle:
-        """The orbit at a solution `u`."""
-        return self.cycle(u)
+    describe = OrbitProblem.cycle
 
     def ending(self, last: Step[Cycle], step: Step[Cycle]) -> tuple[list[Step[Cycle]], End] | None:
         """The end of a walk at `step`, if it is one."""

@@ -8,15 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_count, check_number
 from gearpair._equality import equal_by_value
-from gearpair.bifurcations._arclength import Step, Vector
-from gearpair.bifurcations._orbit_problem import DIFFERENCE, OrbitProblem
-from gearpair.bifurcations._walk import End, walk_both_ways
-from gearpair.bifurcations.locating import TOUCHING, Bifurcation, Kind
+from gearpair.bifurcations._orbit_problem import DIFFERENCE, Kind, OrbitProblem
+from gearpair.bifurcations._walk import End, Step, StepSizes, Vector, walk_both_ways
+from gearpair.bifurcations.locating import TOUCHING, Bifurcation
 
 VANISHED = 1e-6  # residual of a bifurcation's equation from which on the extremum that grazed is there no more
-FIRST_STEP, SMALLEST_STEP, LARGEST_STEP = 1e-3, 1e-8, 2e-2
+SIZES = StepSizes(first=1e-3, smallest=1e-8, largest=2e-2)
 
 
 @equal_by_value
@@ -68,14 +66,14 @@ class _CurveProblem(OrbitProblem):
         super().__init__(bifurcation.oscillator, bifurcation.period, scales)
         self.kind = bifurcation.kind
         # At a grazing: which extremum touches which boundary, followed in time from step to step.
-        self.when, self.boundary = self.cycle(self.unknowns(bifurcation.x, bifurcation.v)).nearest_extremum
+        self.when, self.boundary = self.cycle(self.unknowns(bifurcation.x, bifurcation.v)).nearest_extremum()
 
     def test(self, u: Vector) -> float:
         """The bifurcation's own equation."""
         cycle = self.cycle(u)
         if self.kind == "grazing":
-            return cycle.gap_of(self.when, self.boundary)
-        return cycle.fold_test if self.kind == "fold" else cycle.flip_test
+            return cycle.gap(self.when, self.boundary)
+        return cycle.test(self.kind)
 
     def describe(self, u: Vector) -> float:
         """The residual at a new step, whose extremum is the one to follow from now on."""
@@ -90,16 +88,12 @@ class _CurveProblem(OrbitProblem):
         orbit = super().equations(u)
         if orbit is None:
             return None
-        row = np.empty(4)
+        steps = DIFFERENCE * np.maximum(1.0, np.abs(u))
         try:
-            for k in range(4):
-                step = np.zeros(4)
-                step[k] = DIFFERENCE * max(1.0, abs(u[k]))
-                row[k] = (self.test(u + step) - self.test(u - step)) / (2.0 * step[k])
-            residual = np.append(orbit[0], self.test(u))
+            changes = np.array([self.test(u + step) - self.test(u - step) for step in np.diag(steps)])
+            return np.append(orbit[0], self.test(u)), np.vstack([orbit[1], changes / (2.0 * steps)])
         except ValueError:
             return None
-        return residual, np.vstack([orbit[1], row])
 
     def ending(self, last: Step[float], step: Step[float]) -> tuple[list[Step[float]], End] | None:
         """The end of a walk at `step`, if it is one."""
@@ -110,7 +104,7 @@ def continue_bifurcation(
     bifurcation: Bifurcation,
     bounds: Mapping[str, tuple[float, float]],
     *,
-    largest_step: float = LARGEST_STEP,
+    largest_step: float = SIZES.largest,
     max_steps: int = 500,
 ) -> BifurcationCurve:
     """The curve of a bifurcation in two parameters, in both directions.
@@ -120,28 +114,15 @@ def continue_bifurcation(
     bifurcation : Bifurcation
         Located by `continue_orbit`.
     bounds : mapping of str to (float, float)
-        Two parameter names and the range of each, for example
+        Two parameter names and the range of each, which the bifurcation lies in, for example
         ``{"mesh_frequency": (0.6, 1.8), "damping_ratio": (0.0, 0.1)}``.
-    largest_step : float
-        The longest step in arc length, in units of X, X' and the ranges.
-    max_steps : int
-        Steps at most in each direction.
-
-    Returns
-    -------
-    BifurcationCurve
-
-    Raises
-    ------
-    ValueError
-        For other than two parameters, or bounds that leave out the bifurcation.
-    RuntimeError
-        Where a parameter cannot be varied, as a contact ratio next to the end of what is possible.
+    largest_step, max_steps
+        As in `continue_orbit`, and so are the errors.
 
     Notes
     -----
-    The orbit's two equations are extended by (mu_1 - 1)(mu_2 - 1) = 0, (mu_1 + 1)(mu_2 + 1) = 0 or by
-    the extremum's distance from X = +-1 = 0, and followed by pseudo-arclength.
+    The orbit's two equations are extended by the function whose zero is the bifurcation, see `continue_orbit`, and
+    followed by pseudo-arclength.
 
     Examples
     --------
@@ -154,8 +135,6 @@ def continue_bifurcation(
     """
     if len(bounds) != 2:
         raise ValueError(f"bounds must name two parameters, got {len(bounds)}: {', '.join(bounds)}")
-    check_number("largest_step", largest_step, above=0.0)
-    check_count("max_steps", max_steps)
     osc = bifurcation.oscillator
     for name, (lower, upper) in bounds.items():
         if not lower < upper or not lower <= osc.parameter(name) <= upper:
@@ -163,22 +142,15 @@ def continue_bifurcation(
                 f"bounds of {name} must enclose the bifurcation's {osc.parameter(name)}, got ({lower}, {upper})"
             )
     problem = _CurveProblem(bifurcation, {name: upper - lower for name, (lower, upper) in bounds.items()})
-    steps, ends = walk_both_ways(
-        problem,
-        problem.unknowns(bifurcation.x, bifurcation.v),
-        list(bounds.values()),
-        first=FIRST_STEP,
-        smallest=SMALLEST_STEP,
-        largest=largest_step,
-        max_steps=max_steps,
-    )
-    names = tuple(bounds)
+    start, sizes = problem.unknowns(bifurcation.x, bifurcation.v), SIZES._replace(largest=largest_step)
+    steps, ends = walk_both_ways(problem, start, list(bounds.values()), sizes, max_steps)
+    first, second = bounds
     return BifurcationCurve(
         kind=bifurcation.kind,
         period=bifurcation.period,
-        parameters=(names[0], names[1]),
-        values=np.array([problem.values(step.u) for step in steps]).reshape(-1, 2),
-        points=np.array([step.u[:2] for step in steps]).reshape(-1, 2),
+        parameters=(first, second),
+        values=np.array([problem.values(step.u) for step in steps]),
+        points=np.array([step.u[:2] for step in steps]),
         residual=np.array([step.data for step in steps]),
         ends=ends,
     )

@@ -6,9 +6,9 @@ import numpy as np
 
 from gearpair._checks import check_count
 from gearpair._flow.cycle import map_at
-from gearpair.bifurcations._arclength import correct
 from gearpair.bifurcations._orbit_problem import OrbitProblem
-from gearpair.bifurcations.branches import LARGEST_STEP, continue_orbit
+from gearpair.bifurcations._walk import correct, null_vector
+from gearpair.bifurcations.branches import SIZES, continue_orbit
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.bifurcations.orbits import PeriodicOrbit, orbit_at
 
@@ -16,20 +16,10 @@ from gearpair.bifurcations.orbits import PeriodicOrbit, orbit_at
 def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
     """An orbit of twice the period close to a flip: the start of the doubled branch.
 
-    Parameters
-    ----------
-    bifurcation : Bifurcation
-        Of kind ``"flip"``.
-
-    Returns
-    -------
-    PeriodicOrbit
-        At a parameter value next to the flip's, on the side where the doubled branch is born.
+    It is at a parameter value next to the flip's, on the side where the doubled branch is born.
 
     Raises
     ------
-    ValueError
-        For another kind.
     RuntimeError
         Where no doubled orbit was found, as when the flip lies on a grazing.
 
@@ -47,13 +37,12 @@ def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
     osc, name = bifurcation.oscillator, bifurcation.parameter
     monodromy = np.empty((2, 2))
     map_at(osc.flow_parameters, bifurcation.x, bifurcation.v, bifurcation.period, monodromy)
-    across = np.linalg.svd(monodromy + np.eye(2))[2][-1]
     problem = OrbitProblem(osc, 2 * bifurcation.period, {name: max(abs(bifurcation.value), 1e-3)})
     u = problem.unknowns(bifurcation.x, bifurcation.v)
-    normal = np.array([*across, 0.0])
+    normal = np.array([*null_vector(monodromy + np.eye(2)), 0.0])
     for distance in (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-3, 1e-2):
         found = correct(problem.equations, u + distance * normal, normal)
-        if found is not None and np.max(np.abs(problem.cycle(found[0]).half_gap)) > distance:
+        if found is not None and np.max(np.abs(problem.cycle(found[0]).half_gap())) > distance:
             x, v = found[0][:2].tolist()
             return orbit_at(problem.oscillator(found[0]), x, v, problem.period)
     raise RuntimeError(
@@ -62,7 +51,10 @@ def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
 
 
 def doubling_cascade(flip: Bifurcation, levels: int = 5) -> list[Bifurcation]:
-    """The flips of a period-doubling sequence, from its first on.
+    """The flips of a period-doubling sequence, from its first on, each of twice the period of the one before it.
+
+    They are fewer than `levels` where a branch has no further flip (a fold or a grazing ended the sequence) or the next
+    could not be resolved.
 
     Parameters
     ----------
@@ -70,17 +62,6 @@ def doubling_cascade(flip: Bifurcation, levels: int = 5) -> list[Bifurcation]:
         Of kind ``"flip"``; the doubled branch is followed on the side where it is born.
     levels : int
         How many flips at most, the first included.
-
-    Returns
-    -------
-    list of Bifurcation
-        Each of twice the period of the one before it; shorter than `levels` where a branch has no
-        further flip (a fold or a grazing ended the sequence) or the next could not be resolved.
-
-    Raises
-    ------
-    ValueError
-        For a bifurcation of another kind, or `levels` below 1.
 
     Notes
     -----
@@ -105,9 +86,9 @@ def doubling_cascade(flip: Bifurcation, levels: int = 5) -> list[Bifurcation]:
             break
         value = orbit.oscillator.parameter(last.parameter)
         side = 1.0 if value > last.value else -1.0
-        lower, upper = sorted((last.value - 0.05 * side * width, last.value + side * width))
+        reach = (last.value - 0.05 * side * width, last.value + side * width, value)
         branch = continue_orbit(
-            orbit, last.parameter, min(lower, value), max(upper, value), largest_step=0.5 * LARGEST_STEP, max_steps=400
+            orbit, last.parameter, min(reach), max(reach), largest_step=0.5 * SIZES.largest, max_steps=400
         )
         beyond = [b for b in branch.bifurcations if b.kind == "flip" and side * (b.value - last.value) > 0.0]
         if not beyond:

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from copy import copy
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
-from gearpair.bifurcations._arclength import Step, Vector, between
-from gearpair.bifurcations._cycle import Cycle
-from gearpair.bifurcations._orbit_problem import OrbitProblem
+from gearpair.bifurcations._orbit_problem import Cycle, Kind, OrbitProblem
+from gearpair.bifurcations._walk import Step, Vector
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.oscillator import Oscillator
 
-Kind = Literal["fold", "flip", "grazing"]
+Contacts = tuple[int, int]
 MERGED = 0.1  # where two points pass each other by less than this share of how far they moved, they have met
 TOUCHING = 1e-9  # two points, or an extremum and a boundary, that lie closer than this touch
 
@@ -49,7 +47,7 @@ class Bifurcation:
     x: float
     v: float
     oscillator: Oscillator
-    contacts: tuple[tuple[int, int], tuple[int, int]]
+    contacts: tuple[Contacts, Contacts]
     impact_state: ImpactState
 
 
@@ -58,93 +56,76 @@ def merging(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> Step[Cycle
 
     There the doubled branch and the shorter orbit's own cross, so the flip's own equations are solved.
     """
-    before, after = a.data.half_gap, b.data.half_gap
+    before, after = a.data.half_gap(), b.data.half_gap()
     collapsed = np.linalg.norm(after) < TOUCHING  # the step has landed on the shorter orbit's own branch
     if before @ after >= 0.0 and not collapsed:
         return None
-    share = before @ (before - after) / np.sum((before - after) ** 2)
+    share = 0.0 if collapsed else before @ (before - after) / np.sum((before - after) ** 2)
     if not collapsed and np.linalg.norm(before + share * (after - before)) > MERGED * np.linalg.norm(before - after):
         return None
     from scipy.optimize import root  # here, so that importing gearpair stays quick
 
-    half = OrbitProblem(
-        problem.osc, problem.period // 2, dict(zip(problem.names, problem.scales.tolist(), strict=True))
-    )
+    half = copy(problem)
+    half.period //= 2
 
     def flip(u: Vector) -> Vector:
         found = half.equations(u)
-        return np.append(found[0], half.cycle(u).flip_test) if found is not None else np.full(3, np.inf)
+        return np.append(found[0], half.cycle(u).test("flip")) if found is not None else np.full(3, np.inf)
 
-    middle = a.u.copy() if collapsed else (1.0 - share) * a.u + share * b.u
-    middle[:2] += 0.5 * before if collapsed else 0.5 * ((1.0 - share) * before + share * after)
+    middle = (1.0 - share) * a.u + share * b.u
+    middle[:2] += 0.5 * ((1.0 - share) * before + share * after)
     solution = root(flip, middle, tol=1e-13)
-    lost = np.max(np.abs(solution.fun)) > 1e-9 or np.linalg.norm(solution.x - middle) > np.linalg.norm(b.u - a.u)
-    if lost:
+    if np.max(np.abs(solution.fun)) > 1e-9 or np.linalg.norm(solution.x - middle) > np.linalg.norm(b.u - a.u):
         return a if collapsed else None
     return Step(solution.x, a.tangent, int(solution.nfev), problem.cycle(solution.x))
 
 
-def _locate(
-    problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle], test: Callable[[Cycle], float]
-) -> Step[Cycle] | None:
-    """The step between `a` and `b` where `test` is zero (it changes sign), or None where the branch is lost."""
-
-    from scipy.optimize import brentq  # here, so that importing gearpair stays quick
-
-    def signed(share: float) -> float:
-        found = between(problem.equations, a.u, b.u, share)
-        if found is None:
-            raise ArithmeticError
-        return test(problem.cycle(found[0]))
-
-    try:
-        share = brentq(signed, 0.0, 1.0, xtol=1e-14, rtol=1e-14)
-    except (ArithmeticError, ValueError):
-        return None
-    found = between(problem.equations, a.u, b.u, share)
-    return Step(*found, problem.cycle(found[0])) if found is not None else None
-
-
 def bifurcations_between(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) -> list[Bifurcation]:
     """Every bifurcation between two steps, in order along the chord."""
-    found: list[tuple[Kind, Step[Cycle], tuple[int, int], tuple[int, int]]] = []
-    tests: list[tuple[Kind, Callable[[Cycle], float]]] = [
-        ("fold", lambda cycle: cycle.fold_test),
-        ("flip", lambda cycle: cycle.flip_test),
-    ]
-    for kind, test in tests:
-        if test(a.data) * test(b.data) < 0.0:
-            at = _locate(problem, a, b, test)
-            if at is not None:
-                found.append((kind, at, at.data.contacts, at.data.contacts))
-    found += [("grazing", at, before, after) for at, before, after in _grazings(problem, a, b)]
+    multipliers: tuple[Kind, ...] = ("fold", "flip")
+    located = [(kind, _located(problem, a, b, kind)) for kind in multipliers]
+    found = [(kind, at, at.data.contacts, at.data.contacts) for kind, at in located if at is not None]
+    found += _grazings(problem, a, b)
     found.sort(key=lambda item: float(np.linalg.norm(item[1].u - a.u)))
     return [_bifurcation(problem, *item) for item in found]
 
 
+def _located(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle], kind: Kind) -> Step[Cycle] | None:
+    """The step where the test of a kind changes sign; None where it does not, or where the branch is lost."""
+    if not a.data.test(kind) * b.data.test(kind) < 0.0:
+        return None
+    from scipy.optimize import brentq  # here, so that importing gearpair stays quick
+
+    def signed(share: float) -> float:
+        step = problem.between(a, b, share)
+        if step is None:
+            raise ArithmeticError
+        return step.data.test(kind)
+
+    try:
+        return problem.between(a, b, brentq(signed, 0.0, 1.0, xtol=1e-14, rtol=1e-14))
+    except (ArithmeticError, ValueError):
+        return None
+
+
 def _grazings(
     problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]
-) -> list[tuple[Step[Cycle], tuple[int, int], tuple[int, int]]]:
+) -> list[tuple[Kind, Step[Cycle], Contacts, Contacts]]:
     """Between two steps with different contacts: bisect until one extremum crosses one boundary, then Brent."""
     before, after = a.data.contacts, b.data.contacts
     if before == after:
         return []
-    if abs(before[0] - after[0]) + abs(before[1] - after[1]) == 1 and a.data.gap * b.data.gap < 0.0:
-        at = _locate(problem, a, b, lambda cycle: cycle.gap)
-        if at is not None and abs(at.data.gap) < TOUCHING:
-            return [(at, before, after)]
+    if abs(before[0] - after[0]) + abs(before[1] - after[1]) == 1:
+        at = _located(problem, a, b, "grazing")
+        if at is not None and abs(at.data.test("grazing")) < TOUCHING:
+            return [("grazing", at, before, after)]
     if np.linalg.norm(b.u - a.u) < 1e-10:  # two grazings at once
-        return [(a, before, after)]
-    middle = between(problem.equations, a.u, b.u, 0.5)
-    if middle is None:
-        return []
-    step = Step(*middle, problem.cycle(middle[0]))
-    return _grazings(problem, a, step) + _grazings(problem, step, b)
+        return [("grazing", a, before, after)]
+    middle = problem.between(a, b, 0.5)
+    return [] if middle is None else _grazings(problem, a, middle) + _grazings(problem, middle, b)
 
 
-def _bifurcation(
-    problem: OrbitProblem, kind: Kind, at: Step[Cycle], before: tuple[int, int], after: tuple[int, int]
-) -> Bifurcation:
+def _bifurcation(problem: OrbitProblem, kind: Kind, at: Step[Cycle], before: Contacts, after: Contacts) -> Bifurcation:
     point = at.data.points[np.argmin(at.data.points[:, 0])]
     x_min, x_max = at.data.x_min, at.data.x_max
     if kind == "grazing":  # touching is not yet impacting

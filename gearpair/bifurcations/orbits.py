@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +11,10 @@ from gearpair._checks import check_count
 from gearpair._cores import on_all_cores
 from gearpair._equality import equal_by_value
 from gearpair._flow.newton import newton_starts
-from gearpair.bifurcations._cycle import describe_cycle
+from gearpair.bifurcations._orbit_problem import describe_cycle
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.names import Motion, periodic
+from gearpair.motion.outcome import Outcome
 from gearpair.motion.same_orbit import lies_on
 from gearpair.motion.stability import multipliers_of
 from gearpair.motion.trajectories import check_start, check_starts
@@ -23,20 +23,15 @@ from gearpair.oscillator import Oscillator
 STARTS_AT_ONCE = 16  # of Newton searches, between two chances to stop
 
 
-class NewtonStatus(StrEnum):
-    """How Newton's method ended; a string, so that it compares with its name."""
+class NewtonStatus(Outcome):
+    """How Newton's method ended: a string, with a `remedy` that says what a user may do."""
 
-    CONVERGED = "converged"
-    DIVERGED = "diverged"
-
-    @property
-    def remedy(self) -> str:
-        """A sentence: what the status means and what a user may do."""
-        return {
-            NewtonStatus.CONVERGED: "the residual is at rounding",
-            NewtonStatus.DIVERGED: "no orbit of this period was found from this start: start nearer to it, "
-            "or search from many starts with find_orbits",
-        }[self]
+    CONVERGED = "converged", "the residual is at rounding"
+    DIVERGED = (
+        "diverged",
+        "no orbit of this period was found from this start: start nearer to it, "
+        "or search from many starts with find_orbits",
+    )
 
 
 @equal_by_value
@@ -118,6 +113,8 @@ class PeriodicOrbit:
 def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> PeriodicOrbit:
     """The periodic orbit near (x, v), by Newton's method on the `period`-fold map with its exact derivative.
 
+    Look at its `status` first: where that is ``"diverged"`` there is no orbit to describe.
+
     Parameters
     ----------
     osc : Oscillator
@@ -125,16 +122,6 @@ def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> Periodic
         A guess of one of its points on the section.
     period : int
         In mesh periods, at least 1; the orbit found may have a shorter one that divides it.
-
-    Returns
-    -------
-    PeriodicOrbit
-        Look at its `status` first: where that is ``"diverged"`` there is no orbit to describe.
-
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
 
     Examples
     --------
@@ -191,7 +178,9 @@ def find_orbits(
     v: tuple[float, float] = (-1.5, 1.5),
     n_starts: int = 400,
 ) -> list[PeriodicOrbit]:
-    """The distinct periodic orbits that Newton's method finds from many starts.
+    """The distinct periodic orbits that Newton's method finds from many starts, by period and smallest X.
+
+    All have converged. A finite search can miss some.
 
     Parameters
     ----------
@@ -202,16 +191,6 @@ def find_orbits(
         The rectangle of starts.
     n_starts : int
         Starts per period, spread evenly (an additive recurrence of low discrepancy, the same at every call).
-
-    Returns
-    -------
-    list of PeriodicOrbit
-        Converged, each once, by period and smallest X. A finite search can miss some.
-
-    Raises
-    ------
-    ValueError
-        For an argument out of range.
 
     Examples
     --------

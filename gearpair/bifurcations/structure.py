@@ -21,7 +21,9 @@ SNAP = 2e-4  # relative distance within which the end of a stable range is the b
 def coexistence(
     branches: list[Branch], lower: float, upper: float, *, shortest: float = 0.0
 ) -> list[tuple[float, float, tuple[Motion, ...]]]:
-    """Which stable orbits of a set of branches exist together, range by range.
+    """Which stable orbits of a set of branches exist together, range by range: start, end, and their motions.
+
+    Orbits of one period and impact state on one branch count once each.
 
     Parameters
     ----------
@@ -31,12 +33,6 @@ def coexistence(
         The range of the parameter.
     shortest : float
         Ranges narrower than this are left out.
-
-    Returns
-    -------
-    list of (float, float, tuple of Motion)
-        Start, end, and the stable orbits there with their impact states, in order. Orbits of one period and impact
-        state on one branch count once each.
 
     Examples
     --------
@@ -49,33 +45,27 @@ def coexistence(
     """
     pieces = [piece for branch in branches for piece in _stable_pieces(branch) if piece.width >= shortest]
     # A branch that ends close to a bifurcation ends at it.
-    located = np.array([b.value for branch in branches for b in branch.bifurcations] or [np.inf])
-    pieces = [MotionRange(_nearest(located, p.lower), _nearest(located, p.upper), p.motion) for p in pieces]
+    located = [b.value for branch in branches for b in branch.bifurcations]
+
+    def snapped(value: float) -> float:
+        nearest = min(located, key=lambda each: abs(each - value), default=value)
+        return nearest if abs(nearest - value) <= SNAP * max(1.0, abs(value)) else value
+
+    pieces = [MotionRange(snapped(p.lower), snapped(p.upper), p.motion) for p in pieces]
     ends = {end for piece in pieces for end in (piece.lower, piece.upper) if lower < end < upper}
-    cells = []
-    for left, right in pairwise(sorted({lower, upper, *ends})):
-        middle = 0.5 * (left + right)
-        there = sorted(piece.motion for piece in pieces if piece.lower <= middle <= piece.upper)
-        cells.append((left, right, tuple(there)))
-    runs = [(motions, list(run)) for motions, run in groupby(cells, key=lambda cell: cell[2])]
+
+    def there(cell: tuple[float, float]) -> tuple[Motion, ...]:
+        return tuple(sorted(piece.motion for piece in pieces if piece.lower <= 0.5 * sum(cell) <= piece.upper))
+
+    runs = [(motions, list(run)) for motions, run in groupby(pairwise(sorted({lower, upper, *ends})), there)]
     ranges = [(run[0][0], run[-1][1], motions) for motions, run in runs]
     return [each for each in ranges if each[1] - each[0] >= shortest]
 
 
 def stable_ranges(branches: Iterable[Branch], *, shortest: float = 0.0) -> tuple[MotionRange, ...]:
-    """Where each kind of motion is stable on some branch, between the bifurcations that bound it.
+    """Where each kind of motion is stable on some branch, between the bifurcations that bound it; see `coexistence`.
 
-    Parameters
-    ----------
-    branches : iterable of Branch
-        Along one parameter.
-    shortest : float
-        Ranges narrower than this are left out.
-
-    Returns
-    -------
-    tuple of MotionRange
-        By rising lower end; what overlaps or touches is one range, whatever the impact states.
+    The ranges come by rising lower end; what overlaps or touches is one range, whatever the impact states.
 
     Examples
     --------
@@ -89,65 +79,45 @@ def stable_ranges(branches: Iterable[Branch], *, shortest: float = 0.0) -> tuple
     return tuple(run for run in runs if run.width >= shortest)
 
 
-def _nearest(located: np.ndarray, value: float) -> float:
-    """The bifurcation at `value`, or `value` itself where none is within `SNAP` of it."""
-    near = float(located[np.argmin(np.abs(located - value))])
-    return near if abs(near - value) <= SNAP * max(1.0, abs(value)) else value
-
-
 def _stable_pieces(branch: Branch) -> list[MotionRange]:
     """Parameter ranges of the stable orbits of a branch, cut where the impact state changes or the branch turns."""
-    states = branch.impact_states()
-    pieces: list[MotionRange] = []
-    start = None
-    for i in range(len(branch.values) + 1):
-        inside = i < len(branch.values) and branch.stable[i]
-        if start is not None and (not inside or states[i] != states[start] or _turns_back(branch, start, i)):
-            reached = [_edge(branch, start - 1, start), *branch.values[start:i].tolist(), _edge(branch, i - 1, i)]
-            pieces.append(MotionRange(min(reached), max(reached), periodic(branch.period, states[start])))
-            start = None
-        if inside and start is None:
-            start = i
+    states, values = branch.impact_states(), branch.values
+    runs: list[list[int]] = []
+    for i in np.flatnonzero(branch.stable).tolist():
+        if runs and runs[-1][-1] == i - 1 and states[i - 1] == states[i]:
+            steps = np.diff(values[[*runs[-1][-2:], i]])
+            if steps[0] * steps[-1] >= 0.0:  # it does not turn
+                runs[-1].append(i)
+                continue
+        runs.append([i])
+    pieces = []
+    for run in runs:
+        reached = [_edge(branch, run[0] - 1), *values[run].tolist(), _edge(branch, run[-1])]
+        pieces.append(MotionRange(min(reached), max(reached), periodic(branch.period, states[run[0]])))
     return pieces
 
 
-def _turns_back(branch: Branch, start: int, i: int) -> bool:
-    """Whether the branch turns back in the parameter at orbit ``i - 1``, after `start`."""
-    steps = np.diff(branch.values[max(i - 2, start) : i + 1])
-    return len(steps) == 2 and steps[0] * steps[1] < 0.0
-
-
-def _edge(branch: Branch, i: int, j: int) -> float:
-    """Where between the orbits `i` and `j` a stable range ends, or the branch's own end.
+def _edge(branch: Branch, i: int) -> float:
+    """Where between the orbits `i` and ``i + 1`` a stable range ends, or the branch's own end.
 
     Stability changes at a fold or a flip, the impact state at a grazing, and one step may pass several: the one next to
     the stable orbit ends its range.
     """
-    if i < 0 or j >= len(branch.values):
-        return float(branch.values[max(i, 0) if j >= len(branch.values) else j])
-    changed = branch.stable[i] != branch.stable[j]
+    if not 0 <= i < len(branch.values) - 1:
+        return float(branch.values[max(i, 0)])
+    changed = branch.stable[i] != branch.stable[i + 1]
     between = [b for b, row in zip(branch.bifurcations, branch.bifurcation_rows, strict=True) if row == i]
     fitting = [b.value for b in between if (b.kind != "grazing") == changed] or [b.value for b in between]
     if not fitting:
-        return float(0.5 * (branch.values[i] + branch.values[j]))
+        return float(0.5 * (branch.values[i] + branch.values[i + 1]))
     return fitting[0] if branch.stable[i] else fitting[-1]
 
 
 def bifurcation_table(branches: Iterable[Branch], *, digits: int = 5) -> Table:
     """Every bifurcation of a set of branches, by rising parameter.
 
-    Parameters
-    ----------
-    branches : iterable of Branch
-        Along one parameter.
-    digits : int
-        Decimals of the parameter.
-
-    Returns
-    -------
-    Table
-        Kind, value, the orbit's period, contacts per cycle on the drive and coast side (before and after
-        a grazing), and impact state.
+    It has kind, value (to `digits` decimals), the orbit's period, contacts per cycle on the drive and coast side
+    (before and after a grazing), and impact state.
 
     Examples
     --------
@@ -194,19 +164,9 @@ def coexistence_table(
 
 
 def cascade_table(cascades: Iterable[Sequence[Bifurcation]], *, digits: int = 6) -> Table:
-    """Period-doubling sequences, one row each: the first flips and the ratios of the gaps between them.
+    """Sequences of `doubling_cascade`, one row each: periods, flips, and the ratios of the gaps between them.
 
-    Parameters
-    ----------
-    cascades : iterable of sequences of Bifurcation
-        Of `doubling_cascade`.
-    digits : int
-        Decimals of the parameter.
-
-    Returns
-    -------
-    Table
-        The sequence of periods, its flips, and the ratios of successive gaps (4.669 in the limit).
+    The flips have `digits` decimals; the ratios are 4.669 in the limit.
 
     Examples
     --------
@@ -219,14 +179,8 @@ def cascade_table(cascades: Iterable[Sequence[Bifurcation]], *, digits: int = 6)
     """
     rows = []
     for flips in cascades:
-        values = [flip.value for flip in flips]
-        gaps = np.diff(values)
-        ratios = gaps[:-1] / gaps[1:]
-        rows.append(
-            [
-                " ".join(str(flip.period) for flip in flips),
-                " ".join(f"{value:.{digits}f}" for value in values),
-                " ".join(f"{ratio:.2f}" for ratio in ratios),
-            ]
-        )
+        gaps = np.diff([flip.value for flip in flips])
+        ratios = [f"{ratio:.2f}" for ratio in gaps[:-1] / gaps[1:]]
+        cells = [str(flip.period) for flip in flips], [f"{flip.value:.{digits}f}" for flip in flips], ratios
+        rows.append([" ".join(cell) for cell in cells])
     return Table(["periods", "flips at", "ratios of the gaps"], rows)

@@ -45,17 +45,7 @@ def impact_state(x_min: float, x_max: float) -> ImpactState:
     x_min, x_max = check_number("x_min", x_min), check_number("x_max", x_max)
     if x_min > x_max:
         raise ValueError(f"x_min must not exceed x_max, got x_min = {x_min} and x_max = {x_max}")
-    if x_min >= 1.0:
-        return ImpactState.NONE_DRIVE
-    if x_max <= -1.0:
-        return ImpactState.NONE_COAST
-    if x_min >= -1.0 and x_max >= 1.0:
-        return ImpactState.SINGLE_DRIVE
-    if x_min < -1.0 and x_max > 1.0:
-        return ImpactState.DOUBLE
-    if x_min <= -1.0:
-        return ImpactState.SINGLE_COAST
-    return ImpactState.NEVER_IN_CONTACT
+    return IMPACT_STATES[impact_codes(np.array(x_min), np.array(x_max))]
 
 
 def impact_codes(x_min: NDArray[np.float64], x_max: NDArray[np.float64]) -> NDArray[np.int8]:

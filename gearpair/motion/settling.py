@@ -7,7 +7,6 @@ import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from typing import Any, TypedDict
 
 import numpy as np
@@ -19,6 +18,7 @@ from gearpair._cores import on_all_cores
 from gearpair._flow.capture import COLUMNS
 from gearpair._flow.measures import N_MEASURES
 from gearpair._flow.settle import NOT_RUN, Known, Lanes, Limits, Settled, settle_lanes
+from gearpair.motion.outcome import Outcome
 from gearpair.oscillator import Oscillator
 
 UNLIMITED = 2**62
@@ -26,34 +26,29 @@ UNLIMITED = 2**62
 BLOCK, BLOCK_OF_ONE = 8, 256
 
 
-class Status(StrEnum):
-    """What a motion became; a string, so that it compares with its name."""
+class Status(Outcome):
+    """What a motion became: a string, with a `remedy` that says what a user may do."""
 
-    PERIODIC = "periodic"
-    APERIODIC = "aperiodic"
-    UNSETTLED = "unsettled"
-    ESCAPED = "escaped"
-    CAPPED = "capped"
-    NOT_RUN = "not_run"
-    EXHAUSTED = "exhausted"
-
-    @property
-    def remedy(self) -> str:
-        """A sentence: what the status means and what a user may do."""
-        return REMEDIES[self]
+    PERIODIC = "periodic", "the motion has settled on a stable periodic orbit"
+    APERIODIC = "aperiodic", "the largest Lyapunov exponent is positive, well outside its uncertainty: chaos"
+    UNSETTLED = (
+        "unsettled",
+        "neither periodic nor of a resolved positive exponent: raise n_transient or max_period; "
+        "without damping there is nothing to settle on",
+    )
+    ESCAPED = (
+        "escaped",
+        "the motion grows without bound: start nearer to the backlash zone, or raise damping_ratio",
+    )
+    CAPPED = "capped", "too many events in one mesh period: the oscillator is outside what a gear can do"
+    NOT_RUN = "not_run", "the run was stopped before this value: run it again"
+    EXHAUSTED = (
+        "exhausted",
+        "the limit on work came before the motion was judged: raise most_work, or lower n_transient",
+    )
 
 
 STATUSES = tuple(Status)  # in the order of the kernels' codes
-REMEDIES = {
-    Status.PERIODIC: "the motion has settled on a stable periodic orbit",
-    Status.APERIODIC: "the largest Lyapunov exponent is positive, well outside its uncertainty: chaos",
-    Status.UNSETTLED: "neither periodic nor of a resolved positive exponent: raise n_transient or max_period; "
-    "without damping there is nothing to settle on",
-    Status.ESCAPED: "the motion grows without bound: start nearer to the backlash zone, or raise damping_ratio",
-    Status.CAPPED: "too many events in one mesh period: the oscillator is outside what a gear can do",
-    Status.NOT_RUN: "the run was stopped before this value: run it again",
-    Status.EXHAUSTED: "the limit on work came before the motion was judged: raise most_work, or lower n_transient",
-}
 
 
 class SettleOptions(TypedDict, total=False):

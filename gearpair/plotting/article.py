@@ -21,14 +21,9 @@ from gearpair.quantities import QUANTITIES, axis_label
 
 
 def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax: Axes | None = None) -> Axes:
-    """Mean and best score of every hypothesis, in their order.
+    """Mean and best score of every hypothesis, in their order, and the names of those `marked`.
 
     A bar from the mean to the best score for each.
-
-    Parameters
-    ----------
-    marked : mapping of str to Hypothesis
-        The ones to name.
 
     Examples
     --------
@@ -86,10 +81,7 @@ def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = ""
 def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], ax: Axes | None = None) -> Axes:
     """The share of both published axes that each phase between forcing and stiffness can account for.
 
-    Parameters
-    ----------
-    frequency, damping : sequence of Reached
-        Along the two parameters, for the same hypotheses in the same order.
+    What was reached along the two parameters is for the same hypotheses in the same order.
 
     Examples
     --------
@@ -170,14 +162,7 @@ def stiffness_trends(
 ) -> list[Axes]:
     """Contact ratio, a and b against the gear's teeth: what is published and what is computed.
 
-    Each with one line for the article, named first, and one for each entry of `computed`.
-
-    Parameters
-    ----------
-    published : sequence of StiffnessRow
-    computed : mapping of str to sequence of StiffnessRow
-        By the name for the legend.
-    axes : sequence of three Axes
+    Each of the three axes has one line for the article, named first, and one for each entry of `computed` by its name.
 
     Examples
     --------

@@ -48,10 +48,7 @@ def attractor_colours(result: xr.Dataset) -> list[Colour]:
 def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """Which attractor each start reaches, a second motion of a kind paler; starts that do not stay bounded are white.
 
-    Parameters
-    ----------
-    legend : bool
-        Name the attractors above the axes; where they are many, their colours.
+    The legend above the axes names the attractors; where they are many, their colours.
 
     Examples
     --------
@@ -74,12 +71,7 @@ def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -
 
 
 def impact_states(result: xr.Dataset, ax: Axes | None = None, *, worst: bool = False, legend: bool = True) -> Axes:
-    """In which impact state each start ends, the harsher the darker.
-
-    Parameters
-    ----------
-    worst : bool
-        The worst state of the whole way instead, from the start on.
+    """In which impact state each start ends, or the `worst` of its whole way: the harsher the darker.
 
     Examples
     --------
@@ -146,12 +138,7 @@ def attractor_points(states: Sequence[SteadyState], ax: Axes) -> Axes:
 def finite_exponents(result: xr.Dataset, ax: Axes | None = None, *, largest: float | None = None) -> Axes:
     """The largest Lyapunov exponent from each start: dark where neighbours part, pale where they stay together.
 
-    A colour bar beside it.
-
-    Parameters
-    ----------
-    largest : float, optional
-        Where the colours end.
+    A colour bar beside it; the colours end at `largest`.
 
     Examples
     --------
@@ -189,17 +176,8 @@ def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
 def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """The motion at each point of a grid of two parameters, in the colours of all figures.
 
-    One image whose pixels are the grid's points.
-
-    Parameters
-    ----------
-    result : xarray.Dataset
-        Of `gearpair.parameter_map` with two axes, evenly spaced: the first is drawn upwards, the second to the right.
-
-    Raises
-    ------
-    ValueError
-        For a map with another number of axes.
+    One image whose pixels are the points of a `gearpair.parameter_map` with two axes, evenly spaced: the first is drawn
+    upwards, the second to the right.
 
     Examples
     --------

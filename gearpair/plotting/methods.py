@@ -30,12 +30,7 @@ BESIDE: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "color": BOUNDA
 
 
 def work_precision(measured: Sequence[Precision], ax: Axes | None = None) -> Axes:
-    """Time per mesh period against the one-period error, both logarithmic, a line for each method.
-
-    Parameters
-    ----------
-    measured : sequence of Precision
-        Of `gearpair.methods.work_precision`.
+    """Time per mesh period over the one-period error of `gearpair.methods.work_precision`, both logarithmic, by method.
 
     Examples
     --------

@@ -68,12 +68,7 @@ def _contact_dots(ax: Axes, across: np.ndarray, up: np.ndarray, colour: str) -> 
 def phase_portrait(
     motion: Trajectory, ax: Axes | None = None, *, n_periods: int | None = None, colour: str = INK, impacts: bool = True
 ) -> Axes:
-    """X' over X, the strip out of contact shaded, a dot at each contact made.
-
-    Parameters
-    ----------
-    motion, n_periods, impacts
-        As for `time_history`.
+    """X' over X, the strip out of contact shaded, a dot at each contact made; see `time_history`.
 
     Examples
     --------
@@ -95,12 +90,7 @@ def phase_portrait(
 def poincare_section(
     motion: Trajectory, ax: Axes | None = None, *, colour: str = INK, size: float | None = None
 ) -> Axes:
-    """X' over X once per mesh period, at ``tau mod T = 0``.
-
-    Parameters
-    ----------
-    size : float, optional
-        Diameter of a dot in points; chosen by the number of points without it.
+    """X' over X once per mesh period, at ``tau mod T = 0``; dots of `size` points, or as their number suggests.
 
     Examples
     --------
@@ -195,14 +185,9 @@ def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequen
     Parameters
     ----------
     states : mapping of Motion or str to SteadyState
-        By name, as `gearpair.ensembles.representatives` gives them.
+        At least one, by name, as `gearpair.ensembles.representatives` gives them.
     parameter : str
         Whose value is told beside the name.
-
-    Raises
-    ------
-    ValueError
-        For no states.
 
     Examples
     --------

@@ -133,10 +133,6 @@ def _strips(ax: Axes, chart: xr.Dataset) -> None:
 def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]:
     """What the teeth bear over the speed: the dynamic transmission error, and impacts, of both runs.
 
-    Parameters
-    ----------
-    axes : tuple of two Axes
-
     Examples
     --------
     >>> import gearpair as gp

@@ -109,13 +109,8 @@ def _outline(tooth: ToothProfile) -> tuple[Array, Array]:
 def compliance_stack(mesh: MeshStiffness, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """What the compliance of one pair of teeth is made of, stacked along its path of contact.
 
-    One filled band for each part; compliance times face width, in micrometres per N/mm.
-
-    Parameters
-    ----------
-    mesh : MeshStiffness
-    legend : bool
-        Name the parts beside the axes, the uppermost first.
+    One filled band for each part; compliance times face width, in micrometres per N/mm. The legend beside the axes has
+    the uppermost first.
 
     Examples
     --------
@@ -218,13 +213,7 @@ def mesh_curves(
 def load_shares(
     meshes: Mapping[str, MeshStiffness], ax: Axes | None = None, *, colours: Sequence[str] = (INK, "#D55E00")
 ) -> Axes:
-    """The share of the load that one pair of teeth carries while it crosses its path of contact.
-
-    Parameters
-    ----------
-    meshes : mapping of str to MeshStiffness
-    colours : sequence of str
-        Taken in turn.
+    """The share of the load that one pair of teeth carries while it crosses its path of contact, the colours in turn.
 
     Examples
     --------

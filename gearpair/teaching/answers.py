@@ -15,19 +15,13 @@ LONGEST = 4_000_000  # characters of one report: some hundred thousand numbers
 
 @dataclass(frozen=True)
 class Unreadable:
-    """An answer that is neither a number, a text, a truth value, a list of these, nor a figure.
-
-    Attributes
-    ----------
-    kind : str
-        What it is instead.
-    """
+    """An answer that is no number, text, truth value, list of these or figure; its `kind` is what it is instead."""
 
     kind: str
 
 
 def report(names: Iterable[str], answers: Mapping[str, Any]) -> str:
-    """Some of a notebook's variables as one text; those that do not exist are left out.
+    """Some of a notebook's variables as one text for `read_report`; those that do not exist are left out.
 
     Parameters
     ----------
@@ -35,16 +29,6 @@ def report(names: Iterable[str], answers: Mapping[str, Any]) -> str:
         The variables asked for.
     answers : mapping of str to object
         All variables, such as ``globals()``.
-
-    Returns
-    -------
-    str
-        For `read_report`.
-
-    Raises
-    ------
-    ValueError
-        For answers that are too long to be meant.
 
     Examples
     --------
@@ -58,12 +42,9 @@ def report(names: Iterable[str], answers: Mapping[str, Any]) -> str:
 
 
 def read_report(text: str) -> dict[str, Any]:
-    """The answers in a report; of what cannot be read, none.
+    """The answers in a text of `report`, or of somebody who would like it to be taken for that.
 
-    Parameters
-    ----------
-    text : str
-        Made by `report`, or by somebody who would like it to be taken for that.
+    Of what cannot be read there are none.
 
     Returns
     -------

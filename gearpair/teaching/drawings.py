@@ -26,13 +26,7 @@ class Curve:
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """What a figure shows: its curves, in the order drawn, and the labels of its axes.
-
-    Attributes
-    ----------
-    curves : tuple of Curve
-    x_label, y_label : str
-    """
+    """What a figure shows: its curves, in the order drawn, and the labels of its axes."""
 
     curves: tuple[Curve, ...]
     x_label: str
@@ -40,16 +34,7 @@ class Drawing:
 
 
 def drawing(axes: Any) -> Drawing | None:
-    """The data behind an Axes.
-
-    Parameters
-    ----------
-    axes : matplotlib Axes, Drawing or anything else
-
-    Returns
-    -------
-    Drawing or None
-        A `Drawing` comes back as it is; None for what is neither.
+    """The data behind an Axes of matplotlib; a `Drawing` comes back as it is, None for what is neither.
 
     Examples
     --------

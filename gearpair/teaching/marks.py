@@ -44,13 +44,7 @@ class Marks:
         return "0" if self.missing else "every answer asked for is there; whether they are right, the grading will tell"
 
     def expect(self, **answers: Any) -> None:
-        """Say which answers are still missing: the part of a test that a student sees.
-
-        Parameters
-        ----------
-        **answers
-            By their names; None, or an ellipsis, is a missing one.
-        """
+        """Say which answers, by name, are still missing (None, or an ellipsis): the part of a test students see."""
         self.missing = [name for name, value in answers.items() if value is None or value is ...]
         for name in self.missing:
             print(f"{name}: no answer yet")
@@ -82,13 +76,7 @@ class Marks:
             self._give(name, "not the right number", 0.0, marks)
 
     def same(self, name: str, given: Any, truth: object, *, marks: float = 1.0) -> None:
-        """Mark a word, a whole number or a truth value: right or not.
-
-        Parameters
-        ----------
-        given, truth : object
-            Texts are compared without regard to capitals and blanks around them.
-        """
+        """Mark a word (whatever its capitals and blanks around it), a whole number or a truth value: right or not."""
         if given is None or isinstance(given, Unreadable):
             self._give(name, _instead_of("an answer", given), 0.0, marks)
         elif isinstance(truth, str):

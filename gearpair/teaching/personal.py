@@ -36,15 +36,6 @@ def check_student_id(student_id: object) -> str:
     student_id : str
         Letters, digits and ``. _ @ -``, 2 to 64 of them, the first a letter or a digit.
 
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    ValueError
-        For what cannot be an id, an empty one included.
-
     Examples
     --------
     >>> check_student_id(" Ada.Lovelace ")
@@ -65,10 +56,7 @@ def check_student_id(student_id: object) -> str:
 def personal_pair(student_id: str) -> SpurPair:
     """The gears of one student or group: full-depth teeth at 20 degrees; teeth, module and face width by the id.
 
-    Parameters
-    ----------
-    student_id : str
-        As `check_student_id` takes and refuses it; capitals do not matter.
+    The id is one that `check_student_id` takes; capitals do not matter.
 
     Examples
     --------
@@ -83,11 +71,6 @@ def personal_oscillator(student_id: str) -> Oscillator:
     """The dimensionless oscillator of one student or group: the two-level wave of `personal_pair`; the rest by the id.
 
     It runs at the mesh frequency 0.6, where every student's pair has a motion that keeps contact.
-
-    Parameters
-    ----------
-    student_id : str
-        As for `personal_pair`.
 
     Examples
     --------
@@ -107,11 +90,6 @@ def personal_drive(student_id: str) -> GearDrive:
     """The drive of one student or group in SI units: `personal_pair` with the numbers of `personal_oscillator`.
 
     The gears are steel rings from the bore to the pitch circle.
-
-    Parameters
-    ----------
-    student_id : str
-        As for `personal_pair`.
 
     Examples
     --------

@@ -46,11 +46,6 @@ def iso_stiffness(pair: SpurPair) -> IsoStiffness:
     pair : SpurPair
         Solid discs: the standard's gear blank factor C_R is 1 and the bore has no influence.
 
-    Returns
-    -------
-    IsoStiffness
-        N/(mm um).
-
     Raises
     ------
     ValueError

@@ -176,11 +176,6 @@ def mesh_stiffness(
     n_phases : int
         Samples over the mesh period, at least 2.
 
-    Returns
-    -------
-    MeshStiffness
-        Samples, means and staircases; N/m.
-
     Notes
     -----
     Teeth without error, in plane stress, all of the width b in contact, contact only between the tip circles.

@@ -5,7 +5,7 @@ import pytest
 
 import gearpair as gp
 from gearpair.bifurcations import End
-from gearpair.bifurcations._walk import walk_both_ways
+from gearpair.bifurcations._walk import StepSizes, walk_both_ways
 from tests.support.always_in_contact import edge, edges
 
 CONTACT = gp.Oscillator(mean_force=4.0, error_amplitude=0.02, mesh_frequency=2.6)  # never leaves the flank
@@ -153,7 +153,7 @@ class Line:
 )
 def test_of_two_bounds_in_one_step_the_first_ends_the_walk(bounds, low, high):
     """A step of length 5 passes both; the walk ends where the line leaves the rectangle."""
-    steps, ends = walk_both_ways(Line(), np.zeros(4), bounds, first=5.0, smallest=1e-6, largest=5.0, max_steps=10)
+    steps, ends = walk_both_ways(Line(), np.zeros(4), bounds, StepSizes(5.0, 1e-6, 5.0), max_steps=10)
     assert ends == (End.BOUND, End.BOUND) and len(steps) == 3
     assert np.allclose([steps[0].u[2:], steps[-1].u[2:]], [low, high], rtol=0, atol=1e-12)
 
