@@ -1,7 +1,5 @@
 """The equations of a periodic orbit for continuation, and the cycle that solves them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, Literal
 

@@ -1,7 +1,5 @@
 """A curve of solutions of n equations in n + 1 unknowns, walked both ways by pseudo-arclength (Keller, 1977)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass

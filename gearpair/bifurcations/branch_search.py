@@ -1,7 +1,5 @@
 """A search for the branches of periodic orbits in a range of one parameter."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from gearpair._checks import check_count

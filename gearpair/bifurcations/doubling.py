@@ -1,7 +1,5 @@
 """Period doubling: the doubled branch of a flip, and cascades of flips."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from gearpair._checks import check_count

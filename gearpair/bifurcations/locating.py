@@ -1,7 +1,5 @@
 """Where along a branch the folds, flips and grazings are: each located by Brent's method between two steps."""
 
-from __future__ import annotations
-
 from copy import copy
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The bifurcation structure of a set of branches, as ranges of coexistence and of stability."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from itertools import groupby, pairwise
