@@ -1,12 +1,10 @@
 """The gear pair in SI units, and its way to the dimensionless oscillator and back."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from numbers import Real
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -122,7 +120,7 @@ class GearDrive:
         gear_blank: GearBlank = SOLID,
         coupling: Coupling = "ring",
         n_levels: int = 16,
-    ) -> GearDrive:
+    ) -> Self:
         """The drive of a pair that is drawn: inertias, base radii and mesh stiffness follow from its geometry.
 
         Parameters
@@ -165,7 +163,7 @@ class GearDrive:
         )
         return drive.replace(transmission_error_um=transmission_error_um, damping_ratio=damping_ratio)
 
-    def replace(self, **changes: Any) -> GearDrive:
+    def replace(self, **changes: Any) -> Self:
         """A copy with some numbers changed, and with them what follows from them.
 
         Parameters
@@ -229,7 +227,7 @@ class GearDrive:
             "error_harmonics": tuple(each for each in error if each.order > 1),
         }
 
-    def at_speed(self, pinion_speed_rpm: float) -> GearDrive:
+    def at_speed(self, pinion_speed_rpm: float) -> Self:
         """The drive at another speed of the pinion."""
         return dataclasses.replace(self, pinion_speed_rpm=pinion_speed_rpm)
 
@@ -302,7 +300,7 @@ class GearDrive:
             ),
         )
 
-    def with_oscillator(self, osc: Oscillator) -> GearDrive:
+    def with_oscillator(self, osc: Oscillator) -> Self:
         """The drive of the same teeth, inertias, radii, k_m and b_h whose oscillator is `osc`.
 
         Torque, speed, transmission error, damping, phase and stiffness wave follow from `osc`.

@@ -1,11 +1,9 @@
 """The dimensionless gear pair: one frozen, validated description of the physics."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -127,7 +125,7 @@ class Oscillator:
         self._check_name(name)
         return float(getattr(self.stiffness.rectangle if name in WAVE_SCALARS else self, name))
 
-    def replace(self, **changes: Any) -> Oscillator:
+    def replace(self, **changes: Any) -> Self:
         """A copy with some parameters changed.
 
         Parameters

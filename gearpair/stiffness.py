@@ -1,10 +1,8 @@
 """The mesh stiffness as a function of time: any periodic staircase."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Literal, get_args
+from typing import Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -78,7 +76,7 @@ class StiffnessWave:
         a: float = 0.116,
         b: float = 0.414,
         reading: Reading = "printed",
-    ) -> StiffnessWave:
+    ) -> Self:
         """The article's rectangle: two pairs in contact, then one.
 
         Parameters
@@ -157,7 +155,7 @@ class StiffnessWave:
         steps = (turns[:, :-1] - turns[:, 1:]) / (2j * np.pi * m)
         return np.concatenate([[self.mean], steps @ np.asarray(self.levels)])
 
-    def truncated(self, n_harmonics: int, n_levels: int = 40) -> StiffnessWave:
+    def truncated(self, n_harmonics: int, n_levels: int = 40) -> Self:
         """The mean and the first few harmonics of this wave alone, as a staircase of equal steps.
 
         Parameters
@@ -189,7 +187,7 @@ class StiffnessWave:
         middles = (np.arange(n_levels) + 0.5) / n_levels
         kept = self.harmonics(n_harmonics)[1:] * np.sinc(m / n_levels)
         levels = self.mean + 2.0 * (np.exp(2j * np.pi * np.outer(middles, m)) @ kept).real
-        return StiffnessWave(tuple(np.arange(n_levels) / n_levels), tuple(levels))
+        return type(self)(tuple(np.arange(n_levels) / n_levels), tuple(levels))
 
 
 def _numbers(name: str, values: Sequence[float]) -> tuple[float, ...]:

@@ -1,10 +1,12 @@
 """The order of the tests, and a small book to break."""
 
 import os
+import shutil
 from collections import Counter
 
 import pytest
 
+from tests.support import ROOT
 from tests.support.notebooks import MEAN, write_notebook
 
 # By hand, with packages that the other tests do without: `make check-site` names the site that it checks.
@@ -27,13 +29,15 @@ def small_book(tmp_path):
     """A book of one chapter, `small`, that prints the mean of the baseline's stiffness wave."""
     root = tmp_path / "checkout"
     (root / "notebooks").mkdir(parents=True)
-    (root / "book").mkdir()
+    (root / "book" / "_ext").mkdir(parents=True)
+    shutil.copy(ROOT / "book" / "_ext" / "finishing.py", root / "book" / "_ext")
     (root / "book" / "introduction.md").write_text("# A small book\n\nSome words.\n")
     (root / "_toc.yml").write_text(
         "format: jb-book\nroot: book/introduction\nchapters:\n  - file: book/chapters/small\n"
     )
     (root / "_config.yml").write_text(
         'title: Small\nauthor: nobody\nonly_build_toc_files: true\nexecute:\n  execute_notebooks: "off"\n'
+        "sphinx:\n  local_extensions:\n    finishing: book/_ext\n"
     )
     write_notebook(root / "notebooks" / "small.ipynb", MEAN)
     return root

@@ -1,8 +1,7 @@
 """How a computation ended, in a word and a sentence."""
 
-from __future__ import annotations
-
 from enum import StrEnum
+from typing import Self
 
 
 class Outcome(StrEnum):
@@ -18,7 +17,7 @@ class Outcome(StrEnum):
 
     remedy: str
 
-    def __new__(cls, word: str, remedy: str = "") -> Outcome:
+    def __new__(cls, word: str, remedy: str = "") -> Self:
         """A member from its word and its sentence."""
         member = str.__new__(cls, word)
         member._value_, member.remedy = word, remedy

@@ -1,13 +1,11 @@
 """Batches of motions followed until they settle: many oscillators, many starts, block by block."""
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from typing import Any, TypedDict
+from typing import Any, Self, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -111,12 +109,12 @@ class SettleSettings:
         for name in ("max_period", "n_exponent", "n_samples"):
             check_count(name, getattr(self, name))
 
-    def having(self, options: SettleOptions, allowed: type = SettleOptions, **own: Any) -> SettleSettings:
+    def having(self, options: SettleOptions, allowed: type = SettleOptions, **own: Any) -> Self:
         """These settings but for the `options` that somebody gave, and the caller's `own`."""
         check_options(options, allowed.__annotations__)
         return replace(self, **options, **own)
 
-    def whole_cycles(self) -> SettleSettings:
+    def whole_cycles(self) -> Self:
         """These settings with room for a cycle of the longest period."""
         return replace(self, n_samples=max(self.n_samples, self.max_period))
 

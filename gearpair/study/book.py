@@ -1,7 +1,5 @@
 """From source notebooks to the rendered book."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil
@@ -12,7 +10,7 @@ from difflib import get_close_matches
 from importlib.metadata import PackageNotFoundError, distribution
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import nbformat
 import yaml
@@ -21,7 +19,6 @@ from gearpair.study.cache import Cache, library_digest, tree_digest
 from gearpair.study.chapters import Chapter, read_chapter
 from gearpair.study.claims import claimed
 from gearpair.study.errors import StudyError
-from gearpair.study.finishing import finish_site
 from gearpair.study.record import versions
 from gearpair.study.side_by_side import execute_all
 from gearpair.study.variants import Variant, read_variants, variant_page, with_variants
@@ -38,7 +35,7 @@ class Book:
     root: Path
 
     @classmethod
-    def find(cls, root: Path | None = None) -> Book:
+    def find(cls, root: Path | None = None) -> Self:
         """The book at `root`; without one, of the working directory or a parent of it, else of this package."""
         places = [root] if root else [Path.cwd(), *Path.cwd().parents, Path(__file__).parents[2], *_installed()]
         for place in places:
@@ -199,9 +196,7 @@ def render(source: Path, output: Path, book: Book) -> Path:
     if code:
         print(told.replace(str(source), str(book.root)), end="", file=sys.stderr)  # the sources that a user can mend
         raise StudyError("the pages did not build without warnings (they are named above); the last book stays")
-    site = output / "_build" / "html"
-    finish_site(site, first_page=book.toc["root"], title=book.title)
-    return site
+    return output / "_build" / "html"
 
 
 def run_jupyter_book(source: Path, output: Path, *options: str) -> tuple[int, str]:

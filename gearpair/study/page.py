@@ -5,6 +5,7 @@ import mimetypes
 import os
 import re
 from collections.abc import Mapping
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from gearpair.study.claims import claimed
 from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
 
-MATHJAX = "mathjax/tex-svg.js"  # the one of its scripts that loads nothing else
+MATHJAX = ("sphinx-mathjax-offline", "static/mathjax/tex-svg.js")  # the one of its scripts that loads nothing else
 STYLE = (
     "body{margin:0}main{max-width:60rem;margin:2rem auto;padding:0 1rem}img{max-width:100%}.headerlink{display:none}"
 )
@@ -61,7 +62,7 @@ def make_page(
             last = (told.strip() or str(code)).splitlines()[-1]
             raise StudyError(f"the page of {chapter.name} did not build: {last}")
         whole = scratch / output.name
-        whole.write_text(_whole(page, html), encoding="utf-8")
+        whole.write_text(_whole(page), encoding="utf-8")
         os.replace(whole, output)
 
 
@@ -71,7 +72,7 @@ def _toc_of_one(book: Book, kept: str) -> dict[str, Any]:
     return {"format": "jb-book", "root": book.toc["root"], "chapters": [{"file": file} for file in files]}
 
 
-def _whole(page: Path, html: Path) -> str:
+def _whole(page: Path) -> str:
     """The article of a rendered page with everything it shows inside."""
     soup = BeautifulSoup(page.read_text(encoding="utf-8"), "html.parser")
     article = soup.find("article") or soup
@@ -89,8 +90,7 @@ def _whole(page: Path, html: Path) -> str:
             heading.name = "summary"
     title = soup.find("h1")
     style = "\n".join(_styles(soup, page))
-    mathjax = html / "_static" / MATHJAX  # a book without formulas may do without it
-    script = mathjax.read_text(encoding="utf-8") if mathjax.is_file() else ""
+    script = files(MATHJAX[0]).joinpath(MATHJAX[1]).read_text(encoding="utf-8")
     return PAGE.format(
         title=title.get_text().rstrip("#").strip() if title else page.stem,
         style=style + STYLE,

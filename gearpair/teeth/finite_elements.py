@@ -4,12 +4,11 @@ The numbers stand in ``data/finite_elements.json``; the script that made them, w
 ``tests/teeth/finite_elements/run.py`` in the source tree. Nothing here needs either.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources import files
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,13 +61,13 @@ class FiniteElementBody:
         """The gear itself."""
         return self.pair.pinion if self.who == "pinion" else self.pair.gear
 
-    def mirrored(self) -> FiniteElementBody:
+    def mirrored(self) -> Self:
         """The same gear as its equal mate: there the contact runs the other way along the flank."""
         turned = {
             name: values[::-1] if values.ndim == 1 else values[::-1, ::-1] for name, values in self.compliance.items()
         }
         mate = "gear" if self.who == "pinion" else "pinion"
-        return FiniteElementBody(self.name, self.pair, mate, self.positions, turned, self.change_on_refining)
+        return type(self)(self.name, self.pair, mate, self.positions, turned, self.change_on_refining)
 
 
 def finite_element_bodies() -> dict[str, FiniteElementBody]:

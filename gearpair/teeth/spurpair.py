@@ -1,12 +1,10 @@
 """A pair of external spur gears: what is drawn, and whether it can be cut and can run."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal, get_args
+from typing import Any, Literal, Self, get_args
 
 from gearpair._checks import check_choice, check_count, check_fields, check_number
 
@@ -173,7 +171,7 @@ class SpurPair:
             self._check_gear(who, gear)
         self._check_mesh()
 
-    def replace(self, **changes: Any) -> SpurPair:
+    def replace(self, **changes: Any) -> Self:
         """Return a copy with some parameters changed, checked like a new pair.
 
         Examples

@@ -1,6 +1,5 @@
 """Building the book: what is shown is what ran, and a failure leaves the last good book in place."""
 
-import importlib.util
 import re
 from types import SimpleNamespace
 
@@ -20,6 +19,7 @@ from gearpair.study.cli import main
 from gearpair.study.errors import StudyError
 from gearpair.study.variants import variant_page
 from tests.support import ROOT
+from tests.support.extensions import extension
 from tests.support.notebooks import MEAN, write_notebook
 
 BOOK = Book.find(ROOT)
@@ -98,7 +98,7 @@ def test_a_page_to_hand_around_holds_all_that_it_shows(small_book, tmp_path):
     text = output.read_text()
     page = BeautifulSoup(text, "html.parser")
     assert "1.0035" in page.get_text()
-    assert [image["src"][:22] for image in page.find_all("img")] == ["data:image/png;base64,"]
+    assert [image["src"][:22] for image in page.find_all("img")] == ["data:image/webp;base64"]
     assert not [tag for tag in page.find_all(["link", "iframe"]) or page.find_all(src=True) if tag.name != "img"]
     assert {link["href"][0] for link in page.find_all("a", href=True)} <= {"#"}
     assert "As other and before say." in page.get_text()
@@ -175,10 +175,7 @@ def test_a_variants_page_tells_what_was_changed_and_keeps_its_labels_apart(small
 @pytest.fixture(scope="module")
 def verdict_links():
     """The module of the book that links the verdicts."""
-    spec = importlib.util.spec_from_file_location("executed", ROOT / "book" / "_ext" / "executed.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return extension("executed")
 
 
 def test_every_item_of_the_article_leads_to_one_section_that_is_there(verdict_links):

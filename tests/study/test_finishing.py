@@ -6,9 +6,12 @@ from PIL import Image
 
 from gearpair.study.book import Book
 from gearpair.study.errors import StudyError
-from gearpair.study.finishing import finish_site, mend
+from tests.support.extensions import extension
 from tools.browser import find_chromium
 from tools.pdf import one_document
+
+FINISHING = extension("finishing")
+finish_site, mend = FINISHING.finish_site, FINISHING.mend
 
 THEBE = '<script>const THEBE_JS_URL = "https://example.org/thebe.js"; const other = 1</script>'
 X = r'<span class="math notranslate nohighlight">\(X\)</span>'

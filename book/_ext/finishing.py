@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 from PIL import Image
+from sphinx.application import Sphinx
 
 # MathJax comes with a package, so that a reader's browser fetches nothing; of its 24 MB a page needs these.
 MATHJAX_KEPT = ("tex-chtml.js", "output/chtml/fonts", "input/tex/extensions")
@@ -108,3 +109,15 @@ def _trim_mathjax(mathjax: Path) -> None:
     for path in [*mathjax.rglob("*")]:
         if path.is_file() and not path.relative_to(mathjax).as_posix().startswith(MATHJAX_KEPT):
             path.unlink()
+
+
+def finish(app: Sphinx, exception: Exception | None) -> None:
+    """`finish_site` when the pages are written."""
+    if exception is None and app.builder.format == "html":
+        finish_site(Path(app.outdir), app.config.root_doc, app.config.html_title)
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Register with Sphinx."""
+    app.connect("build-finished", finish, priority=900)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
