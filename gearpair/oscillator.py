@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count, check_fields, check_number
-from gearpair._flow.cells import Cells, Parameters, build_cells
+from gearpair._flow.cells import Cells, Coefficients, build_cells
 from gearpair.stiffness import StiffnessWave
 
 LARGEST_ORDER = 200  # of a harmonic: the cells of a period are as many times ten
@@ -172,9 +172,9 @@ class Oscillator:
         return total
 
     @cached_property
-    def flow_parameters(self) -> Parameters:
+    def coefficients(self) -> Coefficients:
         """What the kernels take: plain floats and arrays."""
-        return Parameters(
+        return Coefficients(
             self.mean_force,
             self.error_amplitude,
             self.error_phase,
@@ -188,7 +188,7 @@ class Oscillator:
     @cached_property
     def cells(self) -> Cells:
         """The tables that the kernels walk over."""
-        return build_cells(self.flow_parameters)
+        return build_cells(self.coefficients)
 
 
 def check_harmonics(name: str, harmonics: Any, lowest: int = 2) -> tuple[Harmonic, ...]:

@@ -41,7 +41,7 @@ WIDTH, START, SINE, COSINE = range(4)
 ESCAPE_RADIUS = 1e6
 
 
-class Parameters(NamedTuple):
+class Coefficients(NamedTuple):
     """The oscillator as plain floats and arrays (numba rejects dataclasses)."""
 
     mean_force: float
@@ -78,7 +78,7 @@ class Cells(NamedTuple):
 
 
 @kernel
-def count_blocks(p: Parameters, level: int) -> int:
+def count_blocks(p: Coefficients, level: int) -> int:
     """How many blocks one stiffness level needs: cells, if the forcing has one harmonic."""
     rate = fastest_rate(p.levels[level], p.damping_ratio, p.mesh_frequency)
     rate = max(rate, 2.0 * p.damping_ratio)
@@ -87,7 +87,7 @@ def count_blocks(p: Parameters, level: int) -> int:
 
 
 @kernel
-def count_cells(p: Parameters, level: int) -> int:
+def count_cells(p: Coefficients, level: int) -> int:
     """How many cells one stiffness level needs: whole blocks of them."""
     order = 0.0
     for i in range(p.harmonics.shape[0]):
@@ -98,7 +98,7 @@ def count_cells(p: Parameters, level: int) -> int:
 
 
 @allocating_kernel
-def build_cells(p: Parameters) -> Cells:
+def build_cells(p: Coefficients) -> Cells:
     """Cut the mesh period of oscillator `p` into cells."""
     cells, ends = empty_cells(p), np.empty((2, 5, 2))
     j, b = 0, 0
@@ -123,7 +123,7 @@ def build_cells(p: Parameters) -> Cells:
 
 
 @allocating_kernel
-def empty_cells(p: Parameters) -> Cells:
+def empty_cells(p: Coefficients) -> Cells:
     """The cells of oscillator `p`, with what belongs to no cell filled in."""
     n_levels = p.levels.size
     n_cells, n_blocks = 0, 0
@@ -160,7 +160,7 @@ def empty_cells(p: Parameters) -> Cells:
 
 
 @inlined_kernel
-def fill_cell(p: Parameters, cells: Cells, j: int, level: int, start: float, width: float, ends: Array) -> None:
+def fill_cell(p: Coefficients, cells: Cells, j: int, level: int, start: float, width: float, ends: Array) -> None:
     """Cell `j`, from `start` (in mesh periods) on, of a stiffness level: `ends` (2, 5, 2) are its `fill_ends`."""
     theta = cells.phase_per_period * start + p.error_phase
     cells.clock[j, WIDTH] = width
@@ -178,7 +178,7 @@ def fill_cell(p: Parameters, cells: Cells, j: int, level: int, start: float, wid
 
 
 @kernel
-def contact_growth(p: Parameters) -> float:
+def contact_growth(p: Coefficients) -> float:
     """The larger multiplier's modulus of the always-in-contact motion over a mesh period (Floquet).
 
     Its determinant is exp(-2 zeta T), so the trace decides.

@@ -25,7 +25,7 @@ REACH = 0.6  # REACH**TERMS / TERMS! = 1e-17: the first neglected term
 
 BINOMIALS = np.array([[math.comb(n, k) for k in range(TERMS)] for n in range(TERMS)], dtype=float)
 
-# Columns of `Parameters.harmonics`: order, amplitude (over b_h) and phase of a harmonic of the transmission error.
+# Columns of `Coefficients.harmonics`: order, amplitude (over b_h) and phase of a harmonic of the transmission error.
 ORDER, AMPLITUDE, PHASE = range(3)
 
 
@@ -72,7 +72,7 @@ def fill_forced(
 ) -> None:
     """Power series in t = h / width of the response from rest to the higher harmonics of the forcing.
 
-    `start` is the cell's in mesh periods, `harmonics` (n, 3) as in `Parameters`. The equation gives each coefficient
+    `start` is the cell's in mesh periods, `harmonics` (n, 3) as in `Coefficients`. The equation gives each coefficient
     from the two before it, as in `fill_basis`.
     """
     forced[:] = 0.0

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ._kernel import Array, allocating_kernel
-from .cells import Parameters, build_cells
+from .cells import Coefficients, build_cells
 from .closed_form import TERMS
 from .newton import derivative
 from .records import Extrema
@@ -11,15 +11,15 @@ from .walk import Details, walk
 
 
 @allocating_kernel
-def map_at(p: Parameters, x: float, v: float, period: int, m: Array) -> tuple[int, float, float]:
+def map_at(p: Coefficients, x: float, v: float, period: int, m: Array) -> tuple[int, float, float]:
     """The `period`-fold map of oscillator `p` and its derivative `m` (2, 2): (status, x, v)."""
     return derivative(build_cells(p), x, v, period, m, np.empty(TERMS))
 
 
 @allocating_kernel
 def equations_at(
-    p: Parameters,
-    beside: tuple[Parameters, ...],
+    p: Coefficients,
+    beside: tuple[Coefficients, ...],
     x: float,
     v: float,
     period: int,
@@ -45,7 +45,7 @@ def equations_at(
 
 
 @allocating_kernel
-def cycle_at(p: Parameters, x: float, v: float, points: Array, m: Array, extrema: Extrema) -> tuple[int, float]:
+def cycle_at(p: Coefficients, x: float, v: float, points: Array, m: Array, extrema: Extrema) -> tuple[int, float]:
     """The cycle of oscillator `p` through (x, v): (status, residual).
 
     Fills `points` (period, 2) with X and X' on the section, `m` (2, 2) with the monodromy, and `extrema`.

@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ._kernel import Array, Integers, allocating_kernel, kernel
-from .cells import Parameters
+from .cells import Coefficients
 from .closed_form import AMPLITUDE, ORDER, PHASE
-from .settle import Lanes, parameters_of
+from .settle import Lanes, coefficients_of
 
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
 STAGES = np.array(
@@ -56,7 +56,7 @@ def deflection(x: float) -> float:
 
 
 @kernel
-def acceleration(p: Parameters, tau: float, x: float, v: float) -> float:
+def acceleration(p: Coefficients, tau: float, x: float, v: float) -> float:
     """X'' of oscillator `p` at (tau, x, v)."""
     force = p.mean_force + p.error_amplitude * p.mesh_frequency**2 * np.sin(p.mesh_frequency * tau + p.error_phase)
     for h in p.harmonics:
@@ -81,7 +81,7 @@ def norm(x: float, v: float, x_scale: float, v_scale: float) -> float:
 
 
 @kernel
-def first_step(p: Parameters, x: float, v: float, end: float, rtol: float, atol: float) -> float:
+def first_step(p: Coefficients, x: float, v: float, end: float, rtol: float, atol: float) -> float:
     """A first step from the sizes of the state and its first two derivatives (Hairer, Norsett, Wanner I, II.4)."""
     x_scale, v_scale = atol + abs(x) * rtol, atol + abs(v) * rtol
     a = acceleration(p, 0.0, x, v)
@@ -97,7 +97,7 @@ def first_step(p: Parameters, x: float, v: float, end: float, rtol: float, atol:
 
 
 @kernel
-def fill_stages(p: Parameters, tau: float, x: float, v: float, h: float, slopes: Array) -> tuple[float, float]:
+def fill_stages(p: Coefficients, tau: float, x: float, v: float, h: float, slopes: Array) -> tuple[float, float]:
     """Stages 1 to 6 of a step `h`, stage 0 given: the new (x, v). ``slopes`` is (2, 7): X' and X'' of each stage."""
     x1, v1 = x, v
     for i in range(1, 7):
@@ -142,7 +142,7 @@ class Steps(NamedTuple):
 
 
 @allocating_kernel
-def integrate(p: Parameters, x: float, v: float, n_periods: int, steps: Steps, points: Array) -> tuple[int, int, int]:
+def integrate(p: Coefficients, x: float, v: float, n_periods: int, steps: Steps, points: Array) -> tuple[int, int, int]:
     """RK45 from (x, v) over `n_periods`: (status, steps taken, calls of the right side).
 
     Fills ``points`` (m, 2) with the last m section points ``tau = n T``, from the start (n = 0) to the end.
@@ -193,7 +193,7 @@ def integrate(p: Parameters, x: float, v: float, n_periods: int, steps: Steps, p
 
 
 @kernel
-def tabulate(p: Parameters, n_steps: int, forces: Array, levels: Array) -> None:
+def tabulate(p: Coefficients, n_steps: int, forces: Array, levels: Array) -> None:
     """Force and stiffness at every half step of a mesh period, shape (2 n_steps,); the period's end is its start."""
     half = np.pi / (p.mesh_frequency * n_steps)
     level = 0
@@ -204,7 +204,7 @@ def tabulate(p: Parameters, n_steps: int, forces: Array, levels: Array) -> None:
 
 
 @allocating_kernel
-def integrate_fixed(p: Parameters, x: float, v: float, n_periods: int, n_steps: int, points: Array) -> int:
+def integrate_fixed(p: Coefficients, x: float, v: float, n_periods: int, n_steps: int, points: Array) -> int:
     """The classical Runge-Kutta method with `n_steps` equal steps a mesh period; `points` as in `integrate`: a status.
 
     The steps begin with the mesh period and take no notice of switches and of contacts.
@@ -247,7 +247,7 @@ def integrate_lanes(
         x, v = lanes.starts[i, 0], lanes.starts[i, 1]
         if i % chain > 0 and counts[i - 1, 0] == COMPLETE:
             x, v = points[i - 1, -1, 0], points[i - 1, -1, 1]
-        p = parameters_of(lanes, lanes.own[i])
+        p = coefficients_of(lanes, lanes.own[i])
         if steps.rtol > 0.0:
             counts[i, 0], _taken, counts[i, 1] = integrate(p, x, v, n_periods, steps, points[i])
         else:

@@ -23,7 +23,7 @@ import numpy as np
 
 from ._kernel import Array, Integers, allocating_kernel, kernel
 from .capture import COLUMNS, OWNER, V, X, inside, surround
-from .cells import Cells, Parameters, build_cells
+from .cells import Cells, Coefficients, build_cells
 from .closed_form import TERMS
 from .newton import NEWTON_STEPS, SAME_POINT, derivative, distance, minimal_period, newton
 from .observe import exponents, measure
@@ -122,10 +122,10 @@ class Course(NamedTuple):
 
 
 @allocating_kernel
-def parameters_of(lanes: Lanes, i: int) -> Parameters:
+def coefficients_of(lanes: Lanes, i: int) -> Coefficients:
     """Oscillator `i` of a batch."""
     s = lanes.scalars[i]
-    return Parameters(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i], lanes.harmonics[i])
+    return Coefficients(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i], lanes.harmonics[i])
 
 
 @allocating_kernel
@@ -364,11 +364,11 @@ def settle_lanes(first: int, last: int, lanes: Lanes, chain: int, limits: Limits
     """
     work = make_scratch(known, limits.max_period)
     built = lanes.own[first]
-    cells = build_cells(parameters_of(lanes, built))
+    cells = build_cells(coefficients_of(lanes, built))
     for i in range(first, last):
         if lanes.own[i] != built:
             built = lanes.own[i]
-            cells = build_cells(parameters_of(lanes, built))
+            cells = build_cells(coefficients_of(lanes, built))
         x, v = lanes.starts[i, 0], lanes.starts[i, 1]
         if i % chain != 0 and out.status[i - 1] < GONE:
             x, v = out.final[i - 1, 0], out.final[i - 1, 1]

@@ -6,7 +6,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._flow.cells import Parameters
+from gearpair._flow.cells import Coefficients
 from gearpair._flow.cycle import cycle_at, equations_at
 from gearpair._flow.records import Extrema
 from gearpair._flow.walk import OK
@@ -61,11 +61,11 @@ class Cycle:
         return self.points[n // 2] - self.points[0] if n % 2 == 0 else np.ones(2)
 
 
-def describe_cycle(parameters: Parameters, x: float, v: float, period: int) -> Cycle:
+def describe_cycle(p: Coefficients, x: float, v: float, period: int) -> Cycle:
     """The cycle of `period` mesh periods through (x, v), which is closed as far as its residual says."""
     points, monodromy = np.empty((period, 2)), np.empty((2, 2))
     found = Extrema(np.empty((MAX_EXTREMA_PER_PERIOD * period, 2)), np.zeros(3, np.int64))
-    status, residual = cycle_at(parameters, x, v, points, monodromy, found)
+    status, residual = cycle_at(p, x, v, points, monodromy, found)
     n, drive, coast = found.counts.tolist()
     extrema = found.rows[:n].copy()
     reached = np.concatenate([extrema[:, 1], points[:, 0]])
@@ -102,18 +102,18 @@ class OrbitProblem:
         """The oscillator at `u`."""
         return self.osc.replace(**self._changes(u))
 
-    def parameters(self, u: Vector) -> Parameters:
-        """The kernels' parameters at `u`."""
+    def coefficients(self, u: Vector) -> Coefficients:
+        """The kernels' coefficients at `u`."""
         if set(self.names) <= set(SCALARS):  # the quick way, free to step a little out of range
-            return self.osc.flow_parameters._replace(**self._changes(u))
-        return self.oscillator(u).flow_parameters
+            return self.osc.coefficients._replace(**self._changes(u))
+        return self.oscillator(u).coefficients
 
     def equations(self, u: Vector) -> tuple[Vector, NDArray[np.float64]] | None:
         """Residual and Jacobian; None where the motion cannot be followed."""
         steps = DIFFERENCE * np.maximum(1.0, np.abs(u))
         try:
-            here = self.parameters(u)
-            beside = tuple(self.parameters(u + side) for step in np.diag(steps)[2:] for side in (step, -step))
+            here = self.coefficients(u)
+            beside = tuple(self.coefficients(u + side) for step in np.diag(steps)[2:] for side in (step, -step))
         except ValueError:  # a wave parameter out of range
             return None
         residual, jacobian = np.empty(2), np.empty((2, len(u)))
@@ -122,7 +122,7 @@ class OrbitProblem:
 
     def cycle(self, u: Vector) -> Cycle:
         """The orbit at a solution `u`."""
-        return describe_cycle(self.parameters(u), u[0], u[1], self.period)
+        return describe_cycle(self.coefficients(u), u[0], u[1], self.period)
 
     def between(self, a: Step[Cycle], b: Step[Cycle], share: float) -> Step[Cycle] | None:
         """The step across the chord from `a` to `b` at `share` of its length, if Newton's method finds it."""

@@ -34,7 +34,7 @@ def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
         raise ValueError(f"bifurcation must be a flip, got a {bifurcation.kind} at {bifurcation.value}")
     osc, name = bifurcation.oscillator, bifurcation.parameter
     monodromy = np.empty((2, 2))
-    map_at(osc.flow_parameters, bifurcation.x, bifurcation.v, bifurcation.period, monodromy)
+    map_at(osc.coefficients, bifurcation.x, bifurcation.v, bifurcation.period, monodromy)
     problem = OrbitProblem(osc, 2 * bifurcation.period, {name: max(abs(bifurcation.value), 1e-3)})
     u = problem.unknowns(bifurcation.x, bifurcation.v)
     normal = np.array([*null_vector(monodromy + np.eye(2)), 0.0])

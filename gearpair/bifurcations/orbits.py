@@ -149,11 +149,11 @@ def _newton(
 
 def orbit_at(osc: Oscillator, x: float, v: float, period: int) -> PeriodicOrbit:
     """Describe the orbit of `period` through (x, v), which Newton's method has found."""
-    cycle = describe_cycle(osc.flow_parameters, x, v, period)
+    cycle = describe_cycle(osc.coefficients, x, v, period)
     lowest = int(np.argmin(cycle.points[:, 0]))
     if lowest:
         x, v = cycle.points[lowest].tolist()
-        cycle = describe_cycle(osc.flow_parameters, x, v, period)
+        cycle = describe_cycle(osc.coefficients, x, v, period)
     return PeriodicOrbit(
         oscillator=osc,
         status=NewtonStatus.CONVERGED,

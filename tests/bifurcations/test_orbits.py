@@ -18,7 +18,7 @@ def test_monodromy_is_the_derivative_of_the_map(frequency, n):
     osc = BASELINE.replace(mesh_frequency=frequency)
     x, v = gp.stroboscopic_map(osc, 1.0, 0.0, 300)
     exact = np.empty((2, 2))
-    map_at(osc.flow_parameters, float(x), float(v), n, exact)
+    map_at(osc.coefficients, float(x), float(v), n, exact)
     h = 1e-6
     right = np.array(gp.stroboscopic_map(osc, [x + h, x], [v, v + h], n))
     left = np.array(gp.stroboscopic_map(osc, [x - h, x], [v, v - h], n))

@@ -12,7 +12,7 @@ from gearpair._flow.walk import walk
 from gearpair.motion.trajectories import raise_unless_ok
 from tests.support.engines import run_in_chromium, run_in_node
 from tests.support.oscillators import degenerate_cases, random_case
-from tests.support.reference import kernel_parameters
+from tests.support.reference import plain_coefficients
 
 PERIODS = 4
 
@@ -51,7 +51,7 @@ RECORD = """(cases) => cases.map(({ periods, x, v, ...oscillator }) => {
 
 def growth(osc: gp.Oscillator, x: float, v: float) -> float:
     """The most that an error made at the start of a mesh period grows until the end, at least 1."""
-    cells, series = build_cells(kernel_parameters(osc)), np.empty(TERMS)
+    cells, series = build_cells(plain_coefficients(osc)), np.empty(TERMS)
     matrices = []
     for _ in range(PERIODS):
         m = np.eye(2)

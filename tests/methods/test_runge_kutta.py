@@ -7,12 +7,12 @@ from scipy.integrate import solve_ivp
 import gearpair as gp
 from gearpair._flow.runge_kutta import STEP_TOO_SMALL, TOO_MANY_STEPS, Steps, integrate
 from gearpair.methods import Integrator
-from tests.support.reference import kernel_parameters, right_hand_side
+from tests.support.reference import plain_coefficients, right_hand_side
 
 
 def ours(osc, x, v, n_periods, rtol, atol):
     points = np.empty((n_periods + 1, 2))
-    status, steps, calls = integrate(kernel_parameters(osc), x, v, n_periods, Steps(rtol, atol, 0, 10**6), points)
+    status, steps, calls = integrate(plain_coefficients(osc), x, v, n_periods, Steps(rtol, atol, 0, 10**6), points)
     assert status == 0
     return points, steps, calls
 
@@ -58,7 +58,7 @@ def test_only_the_last_points_are_kept():
 
 def test_a_failure_has_a_status_not_a_hang():
     points = np.empty((2, 2))
-    p = kernel_parameters(gp.Oscillator())
+    p = plain_coefficients(gp.Oscillator())
     assert integrate(p, 1.2, 0.0, 1, Steps(1e-30, 1e-30, 0, 10**5), points)[0] == TOO_MANY_STEPS
     assert integrate(p, 1e308, 1e308, 1, Steps(1e-3, 1e-6, 0, 10**5), points)[0] == STEP_TOO_SMALL
     with pytest.raises(RuntimeError, match="RK45 gave up"):
@@ -93,7 +93,7 @@ def test_the_largest_step_is_kept_as_scipy_keeps_it():
     run = {"method": "RK45", "rtol": 1e-3, "atol": 1e-6, "max_step": osc.period / 50}
     stepped = solve_ivp(right_hand_side(osc), (0.0, n * osc.period), (0.9, 0.3), **run)
     points = np.empty((n + 1, 2))
-    status, steps, _ = integrate(kernel_parameters(osc), 0.9, 0.3, n, Steps(1e-3, 1e-6, 50, 10**6), points)
+    status, steps, _ = integrate(plain_coefficients(osc), 0.9, 0.3, n, Steps(1e-3, 1e-6, 50, 10**6), points)
     assert (status, steps) == (0, len(stepped.t) - 1)
     np.testing.assert_allclose(points[-1], stepped.y[:, -1], rtol=0.0, atol=1e-10)
 

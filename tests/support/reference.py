@@ -14,7 +14,7 @@ from mpmath import mp, mpc, mpf
 from scipy.integrate import solve_ivp
 
 import gearpair as gp
-from gearpair._flow.cells import Parameters
+from gearpair._flow.cells import Coefficients
 
 mp.dps = 70
 # Added to every stiffness: it parts coinciding roots and resonances, and shifts the answer by as little.
@@ -22,11 +22,11 @@ NUDGE = mpf(10) ** -30
 NOISE = mpf(10) ** -36  # what a position can be off by, mostly from dividing by the nudge
 
 
-def kernel_parameters(osc: gp.Oscillator) -> Parameters:
+def plain_coefficients(osc: gp.Oscillator) -> Coefficients:
     """What the kernels take, built by hand."""
     scalars = (osc.mean_force, osc.error_amplitude, osc.error_phase, osc.damping_ratio, osc.mesh_frequency)
     harmonics = np.array(osc.harmonics, dtype=float).reshape(-1, 3)
-    return Parameters(*scalars, np.array([*osc.stiffness.edges, 1.0]), np.array(osc.stiffness.levels), harmonics)
+    return Coefficients(*scalars, np.array([*osc.stiffness.edges, 1.0]), np.array(osc.stiffness.levels), harmonics)
 
 
 def every_harmonic(osc: gp.Oscillator) -> list[tuple[int, float, float]]:
