@@ -1,5 +1,7 @@
 """The dimensionless gear pair: one frozen, validated description of the physics."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
@@ -19,21 +21,11 @@ MOST_TURNS = 1e6  # of the fastest rate in a mesh period, in radians: the tables
 
 
 class Harmonic(NamedTuple):
-    """A harmonic of the transmission error, ``amplitude * sin(order * Omega tau + phase)``.
+    """A harmonic of the transmission error, ``amplitude * sin(order * Omega tau + phase)``."""
 
-    Parameters
-    ----------
-    order : int
-        Multiple of the mesh frequency.
-    amplitude : float
-        Over half the backlash in an `Oscillator`, in micrometres in a `GearDrive`.
-    phase : float
-        At the start of a mesh period, in radians.
-    """
-
-    order: int
-    amplitude: float
-    phase: float = 0.0
+    order: int  # multiple of the mesh frequency
+    amplitude: float  # over half the backlash in an `Oscillator`, in micrometres in a `GearDrive`
+    phase: float = 0.0  # at the start of a mesh period, in radians
 
 
 @dataclass(frozen=True, kw_only=True)

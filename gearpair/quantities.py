@@ -14,21 +14,6 @@ LETTERS = dict(
 class Quantity(NamedTuple):
     """One quantity and how it is told; braces in `words` and `axis` are where its symbol stands.
 
-    Parameters
-    ----------
-    name : str
-        In the library: of a parameter or of a variable.
-    words : str
-        What it is.
-    symbol : str
-        The article's, in plain letters.
-    tex : str
-        The same as TeX sets it, where that differs.
-    unit : str
-        ``"1"`` for what is dimensionless.
-    axis : str
-        The words along an axis, where they are shorter.
-
     Examples
     --------
     >>> QUANTITIES["mesh_frequency"].long_name, QUANTITIES["mesh_frequency"].label
@@ -37,12 +22,12 @@ class Quantity(NamedTuple):
     'speed of the pinion (rpm)'
     """
 
-    name: str
-    words: str
-    symbol: str = ""
-    tex: str = ""
-    unit: str = "1"
-    axis: str = ""
+    name: str  # in the library: of a parameter or of a variable
+    words: str  # what it is
+    symbol: str = ""  # the article's, in plain letters
+    tex: str = ""  # the same as TeX sets it, where that differs
+    unit: str = "1"  # this for what is dimensionless
+    axis: str = ""  # the words along an axis, where they are shorter
 
     @property
     def long_name(self) -> str:

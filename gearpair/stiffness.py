@@ -1,5 +1,7 @@
 """The mesh stiffness as a function of time: any periodic staircase."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal, Self, get_args

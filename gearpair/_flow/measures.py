@@ -27,13 +27,6 @@ class Measures(NamedTuple):
 
 
 @kernel
-def begin_measures(row: Array, x: float) -> None:
-    """Begin at `x`."""
-    row[:] = 0.0
-    row[LOWEST], row[HIGHEST] = x, x
-
-
-@kernel
 def measure_segment(measures: Measures | None, cells: Cells, segment: Segment) -> None:
     """Add what happens on a segment, and the contact that it ends with."""
     if measures is None:

@@ -5,7 +5,7 @@ import numpy as np
 from ._kernel import Array, allocating_kernel, kernel
 from .cells import Cells
 from .closed_form import TERMS
-from .measures import Measures, begin_measures, finish_measures
+from .measures import HIGHEST, LOWEST, Measures, finish_measures
 from .reach import begin_reach
 from .tangent import set_identity
 from .walk import OK, Details, inlined_walk, walk
@@ -19,7 +19,8 @@ def measure(cells: Cells, x: float, v: float, n_periods: int, series: Array, row
     approach velocities and the largest mesh force of each side, all as moduli; mean of X, root mean square of X
     about it, smallest and largest X.
     """
-    begin_measures(row, x)
+    row[:] = 0.0
+    row[LOWEST], row[HIGHEST] = x, x
     measures = Measures(row, x)
     status, _x, _v = walk(cells, x, v, n_periods, series, None, None, Details(None, None, None, measures, None))
     if status == OK:

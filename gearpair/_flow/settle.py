@@ -297,13 +297,13 @@ def settle(
     elif course.orbit.period > 0:
         describe_orbit(cells, course.orbit, work, out, i)
     else:
-        describe_wandering(cells, limits.n_exponent, work, out, i)
+        describe_span(cells, out.points[i, 0, 0], out.points[i, 0, 1], limits.n_exponent, work, out, i)
 
 
 @allocating_kernel
 def describe_orbit(cells: Cells, orbit: Orbit, work: Scratch, out: Settled, i: int) -> None:
     """Fill row `i` of `out` with what a stable orbit is."""
-    period, points, m = orbit.period, out.points[i], out.monodromy[i]
+    period, m = orbit.period, out.monodromy[i]
     out.status[i], out.period[i] = PERIODIC, period
     derivative(cells, orbit.x, orbit.v, period, m, work.series)
     fill_exponents(cells, np.log(spectral_radius(m)) / (period * cells.period), 0.0, out.exponents[i])
@@ -311,28 +311,21 @@ def describe_orbit(cells: Cells, orbit: Orbit, work: Scratch, out: Settled, i: i
     begin_reach(work.reach, x)
     walk(cells, x, v, period, work.series, None, work.reach)
     out.extremes[i, 0], out.extremes[i, 1] = work.reach[LOWEST], work.reach[HIGHEST]
-    if out.measures.shape[1] > 0:
-        measure(cells, x, v, period, work.series, out.measures[i])
-    walk_points(cells, x, v, points[:period], work.series)
-    for k in range(period, len(points)):
-        points[k] = points[k - period]
-
-
-@allocating_kernel
-def describe_wandering(cells: Cells, n_exponent: int, work: Scratch, out: Settled, i: int) -> None:
-    """Fill row `i` of `out` with section points and measures of a motion that is not periodic, from its first on."""
-    x, v = out.points[i, 0, 0], out.points[i, 0, 1]
-    walk_points(cells, x, v, out.points[i], work.series)
-    if out.measures.shape[1] > 0:
-        measure(cells, x, v, n_exponent, work.series, out.measures[i])
+    describe_span(cells, x, v, period, work, out, i)
 
 
 @kernel
-def walk_points(cells: Cells, x: float, v: float, points: Array, series: Array) -> None:
-    """Fill `points` (n, 2) with successive section points from (x, v) on."""
+def describe_span(cells: Cells, x: float, v: float, n_periods: int, work: Scratch, out: Settled, i: int) -> None:
+    """Fill row `i` of `out` with the section points from (x, v) on, and with the measures over `n_periods`."""
+    if out.measures.shape[1] > 0:
+        measure(cells, x, v, n_periods, work.series, out.measures[i])
+    points, period = out.points[i], out.period[i]
     for k in range(len(points)):
+        if 0 < period <= k:  # a cycle is copied
+            x, v = points[k - period, 0], points[k - period, 1]
         points[k, 0], points[k, 1] = x, v
-        _status, x, v = walk(cells, x, v, 1, series)
+        if period == 0 or k + 1 < period:
+            _status, x, v = walk(cells, x, v, 1, work.series)
 
 
 @allocating_kernel

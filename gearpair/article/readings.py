@@ -1,5 +1,7 @@
 """How the article's equation can be read: a `Hypothesis` is one reading of its physics, the printed one by default."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Literal, get_args, get_type_hints
 

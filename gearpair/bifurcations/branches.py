@@ -1,5 +1,7 @@
 """Branches of periodic orbits along one parameter, with their folds, flips and grazings."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from itertools import pairwise
 

@@ -1,5 +1,7 @@
 """Fold, flip and grazing curves in two parameters."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """Periodic orbits, stable or not, by Newton's method on the period map."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """ISO 6336-1's dynamic factor, method B: the number that a gear designer would otherwise take."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """Rattle without load: an idle gear driven by the unsteady turning of its pinion, by the same exact flow."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """How uncertain a start's fate is: measures of basins of attraction and of the boundaries between them."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """The exact flow taken apart: every segment of a motion, and the certificate by which its impacts were found."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property

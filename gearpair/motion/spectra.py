@@ -1,5 +1,7 @@
 """The spectrum of a sampled motion."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

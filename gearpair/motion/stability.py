@@ -1,5 +1,7 @@
 """Stability: Floquet multipliers, and Lyapunov exponents by the exact tangent map."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,5 +1,7 @@
 """The settled motion from one start, fully described."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Unpack
 

@@ -1,5 +1,7 @@
 """The motion from one start: the stroboscopic map and the trajectory."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """The 0-1 test for chaos: a second opinion where a Lyapunov exponent is within its uncertainty of zero."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

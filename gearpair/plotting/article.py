@@ -1,5 +1,7 @@
 """The published tables: scores and motions of hypotheses about them, and the stiffness table beside computed ones."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from typing import Any
 

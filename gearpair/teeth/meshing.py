@@ -1,5 +1,7 @@
 """Mesh stiffness of a spur pair over the mesh period, from its geometry."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field

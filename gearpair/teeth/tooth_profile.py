@@ -5,6 +5,8 @@ thickness at right angles to it. A load on the flank is named by its roll angle 
 ``r = r_b sqrt(1 + t^2)``.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from typing import Literal, get_args

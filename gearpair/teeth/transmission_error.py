@@ -1,5 +1,7 @@
 """The static transmission error of a pair: from a relief drawn over the path of contact, or measured, to harmonics."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
