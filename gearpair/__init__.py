@@ -20,7 +20,7 @@ from gearpair.bifurcations import (
     periodic_orbit,
 )
 from gearpair.drive import GearDrive
-from gearpair.ensembles import basins, parameter_map, sweep
+from gearpair.ensembles import basins, parameter_map, survival, sweep
 from gearpair.motion import (
     ImpactState,
     Status,
@@ -72,6 +72,7 @@ __all__ = [
     "spectrum",
     "steady_state",
     "stroboscopic_map",
+    "survival",
     "sweep",
     "teeth",
     "trajectory",

@@ -126,6 +126,24 @@ CALLS = {
     "closeness must be a finite number above 0, got 0.0": lambda: gp.methods.runge_kutta_sweep(
         BASELINE, "mesh_frequency", [0.7], closeness=0.0
     ),
+    "x and v must hold one start at least, got shape (0,)": lambda: gp.survival(BASELINE, [], 0.0),
+    "n_periods must be a whole number of at least 1, got 0.5": lambda: gp.survival(BASELINE, 0.0, 0.0, n_periods=0.5),
+    "discard must be a whole number of at least 0, got -1": lambda: gp.survival(BASELINE, 0.0, 0.0, discard=-1),
+    "n_periods must be more than the 500 that are discarded, got 500": lambda: gp.survival(
+        BASELINE, 0.0, 0.0, n_periods=500
+    ),
+    "confidence must be a finite number above 0 and below 1, got 1.0": lambda: gp.survival(
+        BASELINE, 0.0, 0.0, confidence=1.0
+    ),
+    "unknown parameter 'rpm'": lambda: gp.ensembles.survival_along(BASELINE, "rpm", [1.0], 0.0, 0.0),
+    "times must be a non-empty sequence of numbers, got shape (0,)": lambda: gp.ensembles.escape_rate([], 10),
+    "times must be whole numbers of at least 0, got inf": lambda: gp.ensembles.escape_rate([INF], 10),
+    "times must be whole numbers of at least 0, got 1.5": lambda: gp.ensembles.escape_rate([1.5], 10),
+    "times must not exceed the periods watched, got 11 of 10": lambda: gp.ensembles.escape_rate([11, NAN], 10),
+    "watched must be whole numbers of at least 0, got nan": lambda: gp.ensembles.escape_rate([1, NAN], [10, NAN]),
+    "watched must be one number, or one for each of the 2 times, got shape (3,)": lambda: gp.ensembles.escape_rate(
+        [1, NAN], [10] * 3
+    ),
     "n must be a whole number of at least 0, got 2.5": lambda: gp.StiffnessWave((0.0,), (1.0,)).harmonics(2.5),
 }
 

@@ -1,5 +1,7 @@
-"""Ensembles of motions: sweeps and maps over parameters, basins over starts, and where each motion lives."""
+"""Ensembles of motions: sweeps and maps over parameters, basins over starts, where each motion lives, and how long."""
 
+from gearpair.ensembles.escape_rates import EscapeRate, Persistence, escape_rate
+from gearpair.ensembles.lifetimes import survival, survival_along
 from gearpair.ensembles.planes import attractor_motions, attractor_states, basins
 from gearpair.ensembles.ranges import (
     MotionRange,
@@ -19,7 +21,9 @@ from gearpair.ensembles.uncertainty import BasinEntropy, UncertaintyExponent, ba
 
 __all__ = [
     "BasinEntropy",
+    "EscapeRate",
     "MotionRange",
+    "Persistence",
     "UncertaintyExponent",
     "attractor_motions",
     "attractor_states",
@@ -29,6 +33,7 @@ __all__ = [
     "carried_sweeps",
     "continue_attractors",
     "decoded",
+    "escape_rate",
     "found_ranges",
     "joined_ranges",
     "motion_ranges",
@@ -37,6 +42,8 @@ __all__ = [
     "parameter_map",
     "range_of",
     "representatives",
+    "survival",
+    "survival_along",
     "sweep",
     "uncertainty_exponent",
 ]

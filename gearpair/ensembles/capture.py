@@ -31,7 +31,11 @@ def known_attractors(osc: Oscillator, starts: NDArray[np.float64], settings: Set
     """
     if len(starts) == 0:
         return nothing_known(settings)
-    out = settle_batch([osc], starts, settings)
+    return known_among(osc, settle_batch([osc], starts, settings))
+
+
+def known_among(osc: Oscillator, out: Settled) -> Known:
+    """The periodic attractors among settled motions, in the order in which they turn up."""
     found, _ = found_in(settled_columns(out))
     rows = np.sort(found.first[found.columns["status"] == PERIODIC])
     settled = Settled._make(column[rows] for column in out)

@@ -148,10 +148,7 @@ def stroboscopic_map(
     ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
     block = max(1, PERIODS_AT_ONCE // max(n, 1))
     on_all_cores(walk_starts, (osc.cells, starts, n, ends, status), len(starts), block)
-    for code, remedy in CAPPED.items():
-        if np.any(status == code):
-            i = int(np.argmax(status == code))
-            raise RuntimeError(f"start x = {starts[i, 0]}, v = {starts[i, 1]}: {remedy}")
+    raise_if_capped(status, starts)
     gone = status == ESCAPED
     ends[gone] = np.copysign(np.inf, ends[gone])
     return ends[:, 0].reshape(xs.shape), ends[:, 1].reshape(xs.shape)
@@ -213,6 +210,14 @@ def trajectory(
     )
     tau = np.linspace(0.0, n_periods * osc.period, len(samples))
     return Trajectory(osc, tau, samples[:, 0], samples[:, 1], impacts, samples_per_period, "exact")
+
+
+def raise_if_capped(status: NDArray[np.int64], starts: NDArray[np.float64]) -> None:
+    """Raise the RuntimeError that says which of the walks from `starts` (n, 2) was capped, if one was."""
+    for code, remedy in CAPPED.items():
+        if np.any(status == code):
+            i = int(np.argmax(status == code))
+            raise RuntimeError(f"start x = {starts[i, 0]}, v = {starts[i, 1]}: {remedy}")
 
 
 def raise_unless_ok(status: int, periods: int) -> None:

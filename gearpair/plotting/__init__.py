@@ -3,8 +3,9 @@
 What they share is said here once. `ax` is what to draw on, a new figure in the book's style without it; `title` stands
 above the picture, or inside it where the legend is above; `legend` is whether the colours are named; `colour` and
 `label` are those of the curve. A result that is not described is made as the example shows: a `sweep` by
-`gearpair.sweep`, a plane by `gearpair.basins`, a grid by `gearpair.parameter_map`, a `chart` by
-`gearpair.design.speed_chart`. Under the first sentence of each stands what its Axes holds.
+`gearpair.sweep`, a plane by `gearpair.basins`, a grid by `gearpair.parameter_map`, survivors by
+`gearpair.survival`, a `chart` by `gearpair.design.speed_chart`. Under the first sentence of each stands what its Axes
+holds.
 
 Colours say the same everywhere (`MOTION_COLOURS`): one for each period, dark grey for chaos; they stay apart for
 colour-blind readers. Nothing is set at import: ``plt.style.use(STYLE)``, or ``with plt.style.context(STYLE):``, gives
@@ -50,6 +51,7 @@ from gearpair.plotting.methods import (
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, rattle, tooth_loads, tornado
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
+from gearpair.plotting.survivors import survival_curve
 from gearpair.plotting.teeth import (
     compliance_stack,
     finite_element_check,
@@ -110,6 +112,7 @@ __all__ = [
     "step_convergence",
     "stiffness_trends",
     "stiffness_wave",
+    "survival_curve",
     "time_history",
     "tooth_loads",
     "tooth_outlines",

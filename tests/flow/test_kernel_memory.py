@@ -33,6 +33,7 @@ WORK = {
     "a trajectory": lambda osc: gp.trajectory(osc, 0.3, 0.0, 4),
     "a settled motion": lambda osc: gp.steady_state(osc),
     "a plane of starts": lambda osc: gp.basins(osc, np.linspace(-3.0, 3.0, 8), [-1.0, 0.0, 1.0]),
+    "a watch": lambda osc: gp.survival(osc, [0.3, 2.0], 0.0, n_periods=600),
     "a sweep": lambda osc: gp.sweep(osc, "mesh_frequency", [0.7, 0.8]),
     "an orbit": lambda osc: gp.periodic_orbit(osc, 1.0, 0.0, 2),
     "a branch": branch,

@@ -1,0 +1,52 @@
+"""The survival curve shows the survivors, the fitted rate and the time watched."""
+
+import numpy as np
+import pytest
+
+import gearpair as gp
+from gearpair import plotting
+from gearpair.ensembles.lifetimes import estimate_of
+
+
+def survival(frequency, **how):
+    return gp.survival(gp.Oscillator(mesh_frequency=frequency), [-1.0, 0.0, 1.0, 2.0], -1.0, **how)
+
+
+def test_the_steps_are_the_survivors_and_the_line_falls_with_the_rate():
+    result = survival(1.09)
+    ax = plotting.survival_curve(result)
+    steps, _discarded, line = ax.lines
+    shown = result.survivors.values > 0
+    np.testing.assert_array_equal(steps.get_ydata()[shown], result.survivors.values[shown])
+    np.testing.assert_array_equal(steps.get_xdata(), result.waited.values)
+    assert np.all(steps.get_ydata()[~shown] < ax.get_ylim()[0]) and steps.get_drawstyle() == "steps-post"
+    tau, fitted = line.get_data()
+    assert (tau[0], fitted[0]) == (500.0, result.n_watched.item())
+    slope = np.polyfit(tau, np.log(fitted), 1)[0]
+    assert slope == pytest.approx(-result.escape_rate.item(), rel=1e-9)
+    strip = ax.collections[0].get_paths()[0].vertices
+    assert strip[:, 1].max() == pytest.approx(result.n_watched.item())
+    at_end = strip[np.isclose(strip[:, 0], 20_000.0), 1]
+    for rate in (result.escape_rate_low.item(), result.escape_rate_high.item()):
+        assert np.isclose(at_end, result.n_watched.item() * np.exp(-rate * 19_500.0)).any()
+    (text,) = ax.get_legend().get_texts()
+    assert text.get_text() == estimate_of(result).told and " to " in text.get_text()
+    assert result.escape_time.max() < ax.get_xlim()[1] < 20_000.0
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("mesh periods", "starts still on their way")
+
+
+def test_without_an_escape_there_is_a_bound_and_no_line():
+    result = survival(1.219, n_periods=1500)
+    ax = plotting.survival_curve(result, colour="#009E73")
+    assert len(ax.lines) == 2 and ax.lines[0].get_color() == "#009E73"
+    assert ax.get_legend().get_texts()[0].get_text().startswith("mean life at least 1000 mesh")
+    assert plotting.survival_curve(result, legend=False).get_legend() is None
+
+
+def test_where_nothing_was_left_to_watch_the_survivors_are_drawn_alone():
+    osc = gp.Oscillator(damping_ratio=0.1)
+    ax = plotting.survival_curve(gp.survival(osc, [0.0, 1.0], 0.0, n_periods=600))
+    assert (len(ax.lines), len(ax.collections), ax.get_legend()) == (2, 0, None)
+    on_it = gp.steady_state(osc).points[0].tolist()
+    ax = plotting.survival_curve(gp.survival(osc, *on_it, n_periods=600, discard=0))
+    assert ax.get_ylim()[1] > 1.0
