@@ -8,7 +8,7 @@
 #   make pdf          build the book, then print it to _build/gearpair.pdf (needs a Chromium, see check-site)
 #   make check-site   build the book, then open every page and check it; needs Java, npm and a Chromium on the PATH (or
 #                     CHROMIUM=/path/to/it); SITE_ARGS="-k links" for some of the gates
-#   make check-all    all of the above and below to their ends, but for what writes into the checkout: accept, lock-teach
+#   make check-all    test, teach, check-site, pdf, check-wheel, and the short ways of bench and stability, to their ends
 #   make check-wheel  build the wheel, install it alone in an empty environment, run the README's example there
 #   make bench        measure accuracy and time on this machine, beside other integrators (some minutes; installs the
 #                     bench extra first, and does without where it cannot be had); BENCH_ARGS=--quick for less

@@ -154,7 +154,7 @@ class GearDrive:
         (0.05, 0.125, 1.0)
         """
         drive = cls(
-            **_drawn(pair, coupling, n_levels, {"pinion": pinion_blank, "gear": gear_blank}),
+            **_drawn(pair, coupling, n_levels, {"pinion": pinion_blank or SOLID, "gear": gear_blank or SOLID}),
             pinion_torque_nm=pinion_torque_nm,
             pinion_speed_rpm=pinion_speed_rpm,
             backlash_um=backlash_um,
@@ -188,12 +188,13 @@ class GearDrive:
         (1.754, 0.05, True)
         """
         for name in changes:
-            if name not in (*FIELDS, "damping_ratio"):
-                if name not in (*DRAWING, *PAIR):
-                    known = ", ".join((*FIELDS, "damping_ratio", *DRAWING[:3]))
-                    raise ValueError(f"unknown name {name!r}; what can be changed is {known}, and sizes of the pair")
-                if self.mesh is None:
-                    raise ValueError(f"{name} can be changed only where the drive comes from GearDrive.from_pair")
+            if name not in (*FIELDS, "damping_ratio", *DRAWN):
+                known = ", ".join((*FIELDS, "damping_ratio", *DRAWING[:3]))
+                raise ValueError(f"unknown name {name!r}; what can be changed is {known}, and sizes of the pair")
+            if name in DRAWN and self.mesh is None:
+                raise ValueError(f"{name} can be changed only where the drive comes from GearDrive.from_pair")
+        if changes.get("mesh") is not None:
+            raise ValueError("mesh follows from the pair: change the pair, or a size of it")
         ratio = changes.pop("damping_ratio", None)
         forgotten = {f"{who}_blank": None for who in ("pinion", "gear") if f"{who}_inertia_kg_m2" in changes}
         if changes.get("stiffness", self.stiffness) != self.stiffness:
@@ -334,3 +335,4 @@ def _drawn(pair: SpurPair, coupling: Coupling, n_levels: int, blanks: dict[str, 
 FIELDS = tuple(each.name for each in dataclasses.fields(GearDrive))
 PAIR = tuple(each.name for each in dataclasses.fields(SpurPair))
 DRAWING = ("pair", "coupling", "n_levels", "pinion_blank", "gear_blank")
+DRAWN = {*PAIR} - {*FIELDS} | {*DRAWING}  # only where there is a drawing

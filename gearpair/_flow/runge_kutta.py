@@ -149,7 +149,7 @@ def integrate(p: Coefficients, x: float, v: float, n_periods: int, steps: Steps,
     """
     period = 2.0 * np.pi / p.mesh_frequency
     end, rtol, atol = n_periods * period, steps.rtol, steps.atol
-    max_step = period / steps.per_period if steps.per_period > 0 else np.inf
+    max_step = 2.0 * np.pi / (p.mesh_frequency * steps.per_period) if steps.per_period > 0 else np.inf
     slopes = np.empty((2, 7))
     tau = 0.0
     h = first_step(p, x, v, end, rtol, atol)

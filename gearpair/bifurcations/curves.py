@@ -117,7 +117,7 @@ def continue_bifurcation(
         Two parameter names and the range of each, which the bifurcation lies in, for example
         ``{"mesh_frequency": (0.6, 1.8), "damping_ratio": (0.0, 0.1)}``.
     largest_step, max_steps
-        As in `continue_orbit`, and so are the errors.
+        As in `continue_orbit`; the same errors are raised.
 
     Notes
     -----

@@ -78,7 +78,7 @@ def runge_kutta_section(
 
 
 class DiagramOptions(TypedDict, total=False):
-    """How a diagram is drawn by a fixed transient and read: keyword arguments of what draws one.
+    """How a diagram is drawn with a fixed transient, and read: keyword arguments of the functions that draw one.
 
     Parameters
     ----------

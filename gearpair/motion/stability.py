@@ -21,7 +21,7 @@ def lyapunov_exponents(
     Parameters
     ----------
     osc, x, v, n_transient
-        As in `trajectory`, and so are the errors.
+        As in `trajectory`; the same errors are raised.
     n_periods : int
         Mesh periods to average over, at least 1, after as many in which the tangent turns to where it grows most.
 

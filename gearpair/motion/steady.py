@@ -85,11 +85,11 @@ def steady_state(
 
     Notes
     -----
-    A motion is *periodic* when it returns within 1e-8 of itself (relative to max(1, |X|, |X'|)) and Newton's
-    method finds a stable orbit of that period within 1e-6 of it; after the whole transient, also when it
-    approaches a stable orbit within 1e-2. The points and multipliers are those of the orbit, exact to rounding.
-    Otherwise it is *aperiodic* when its largest Lyapunov exponent exceeds four standard errors, and *unsettled*
-    when not.
+    A motion is *periodic* when it enters a certified neighbourhood of a stable orbit, which no motion leaves; where
+    none can be certified, when it returns within 1e-8 of itself (relative to max(1, |X|, |X'|)) and the stable orbit
+    lies within 1e-6; after the whole transient, also when it approaches a stable orbit within 1e-2. The points and
+    multipliers are those of the orbit, exact to rounding. Otherwise it is *aperiodic* when its largest Lyapunov
+    exponent exceeds four standard errors, and *unsettled* when not.
 
     Examples
     --------

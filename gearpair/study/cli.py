@@ -99,7 +99,7 @@ def chapters(context: click.Context) -> None:
 @command.command()
 @click.argument("chapter")
 @click.option("-p", "--parameter", "given", nargs=2, multiple=True, metavar="NAME VALUE", help="Repeat for more.")
-@click.option("-f", "--file", type=PATH, metavar="FILE.yml", help="Parameters in a YAML file; -p goes before it.")
+@click.option("-f", "--file", type=PATH, metavar="FILE.yml", help="Parameters in a YAML file; -p takes precedence.")
 @click.option("-o", "--output", type=PATH, metavar="OUT", help="The executed notebook; CHAPTER-run.ipynb, here.")
 @click.option("--html", is_flag=True, help="Make one web page of it (CHAPTER-run.html) that needs nothing else.")
 @click.option("--quiet", is_flag=True, help="No progress bar.")

@@ -49,7 +49,7 @@ class Evidence:
     changes : sequence of Bifurcation
         In either parameter, of `bifurcations_of`.
     stretch : (float, float)
-        The last flip of period 2 below and the first above which its chaotic zone lies.
+        From the last flip of period 2 below its chaotic zone to the first above it.
     shares : mapping of str to float
         The share of frequencies at which the ``"rectangle"`` and the ``"sinusoid"`` meet the computed curve's motion.
     """
