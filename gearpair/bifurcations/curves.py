@@ -104,6 +104,7 @@ def continue_bifurcation(
     *,
     largest_step: float = SIZES.largest,
     max_steps: int = 500,
+    over_kinks: bool = False,
 ) -> BifurcationCurve:
     """The curve of a bifurcation in two parameters, in both directions.
 
@@ -141,7 +142,7 @@ def continue_bifurcation(
             )
     problem = _CurveProblem(bifurcation, {name: upper - lower for name, (lower, upper) in bounds.items()})
     start, sizes = problem.unknowns(bifurcation.x, bifurcation.v), SIZES._replace(largest=largest_step)
-    steps, ends = walk_both_ways(problem, start, list(bounds.values()), sizes, max_steps)
+    steps, ends = walk_both_ways(problem, start, list(bounds.values()), sizes, max_steps, over_kinks=over_kinks)
     first, second = bounds
     return BifurcationCurve(
         kind=bifurcation.kind,
