@@ -45,10 +45,15 @@ class End(Outcome):
         "raise damping_ratio, or narrow the range",
     )
     MAX_STEPS = "max_steps", "it was cut short after max_steps steps: raise max_steps"
+    GRAZES = (
+        "grazes",
+        "its orbit also touches X = +-1 there, a point of codimension two: one more contact moves the multipliers like a "
+        "square root, so the curve goes on along the grazing, too close to it to be resolved; continue from beyond it",
+    )
     LOST = (
         "lost",
-        "no further step converged, as at a degenerate point: continue from an orbit beyond it, "
-        "or change another parameter a little",
+        "no further step converged, as at a kink, which continue_bifurcation passes with over_kinks=True, or at a "
+        "degenerate point: continue from an orbit beyond it, or change another parameter a little",
     )
 
 
@@ -86,6 +91,9 @@ class Problem(Protocol[Data]):
 
     def ending(self, last: Step[Data], step: Step[Data]) -> tuple[list[Step[Data]], End] | None:
         """Where the walk ends at `step`, after `last`: the steps to end with, and why; None where it goes on."""
+
+    def stop(self, step: Step[Data]) -> End:
+        """Why no step beyond `step` converges, kinks aside."""
 
 
 def null_vector(matrix: NDArray[np.float64]) -> Vector:
@@ -153,7 +161,7 @@ def walk_both_ways(
             steps.append(step)
             if len(steps) > max_steps:
                 return steps, End.MAX_STEPS
-        return steps, End.LOST
+        return steps, own.stop(steps[-1]) if over_kinks else End.LOST
 
     forth, forth_end = walk(onwards)
     if forth_end == End.CLOSED:
@@ -202,8 +210,11 @@ def _beyond_kink(
         vectors = [null_vector(side[1]) for side in sides if side is not None]
         for size in sizes.first * 0.5 ** np.arange(4):
             for onwards in (sign * vector for vector in vectors for sign in (1.0, -1.0)):
-                found = correct(equations, u + size * onwards, onwards)
-                if found is not None and found[1] @ onwards > LEAST_COSINE and _distance(found[0], walked) > 0.1 * size:
+                guess = u + size * onwards
+                found = correct(equations, guess, onwards)
+                if found is None or found[1] @ onwards < LEAST_COSINE or np.linalg.norm(found[0] - guess) > size:
+                    continue
+                if _distance(found[0], walked) > 0.1 * size:
                     return found
     return None
 
