@@ -47,8 +47,8 @@ class End(Outcome):
     MAX_STEPS = "max_steps", "it was cut short after max_steps steps: raise max_steps"
     GRAZES = (
         "grazes",
-        "its orbit also touches X = +-1 there, a point of codimension two: one more contact moves the multipliers like a "
-        "square root, so the curve goes on along the grazing, too close to it to be resolved; continue from beyond it",
+        "its orbit also touches X = +-1 there, a point of codimension two: one more contact moves the multipliers like "
+        "a square root, so that the curve goes on along the grazing, too close to be followed: continue from beyond",
     )
     LOST = (
         "lost",
@@ -199,7 +199,7 @@ def _steps_along(
 def _beyond_kink(
     equations: Equations, walked: NDArray[np.float64], tangent: Vector, sizes: StepSizes
 ) -> tuple[Vector, Vector, int] | None:
-    """The first solution beyond a kink, next to which a walk has come to a stand, as from `correct`; None where none is.
+    """The first solution beyond a kink, next to which a walk came to a stand, as from `correct`; None where none is.
 
     Two half curves meet at a kink, each along the null vector of the Jacobian on its own side, either way. The one that
     has not been `walked` leads on.
