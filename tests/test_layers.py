@@ -13,7 +13,7 @@ from tests.support import ROOT
 LIBRARY = sorted((ROOT / "gearpair").rglob("*.py"))
 LONGEST_FILE = 400
 # Below every room: the kernels, and what all rooms check, compare and run with.
-SHARED = {"_flow", "_checks", "_cores", "_equality"}
+SHARED = {"_flow", "_checks", "_cores", "_equality", "_locks"}
 
 
 def test_imports_keep_the_contracts():

@@ -10,7 +10,7 @@ from gearpair._flow.cells import Coefficients
 from gearpair._flow.cycle import cycle_at, equations_at
 from gearpair._flow.records import Extrema
 from gearpair._flow.walk import OK
-from gearpair.bifurcations._walk import Step, Vector, correct
+from gearpair.bifurcations._walk import End, Step, Vector, correct
 from gearpair.oscillator import SCALARS, Oscillator
 
 Kind = Literal["fold", "flip", "grazing"]
@@ -123,6 +123,10 @@ class OrbitProblem:
     def cycle(self, u: Vector) -> Cycle:
         """The orbit at a solution `u`."""
         return describe_cycle(self.coefficients(u), u[0], u[1], self.period)
+
+    def stop(self, step: Step[Any]) -> End:
+        """Why no step beyond `step` converges."""
+        return End.LOST
 
     def between(self, a: Step[Cycle], b: Step[Cycle], share: float) -> Step[Cycle] | None:
         """The step across the chord from `a` to `b` at `share` of its length, if Newton's method finds it."""

@@ -20,6 +20,7 @@ QUICK = 4  # Newton steps below which the next arc step may grow
 CLOSE = 1e-11  # convergence: the last Newton step, in scaled unknowns
 LEAST_COSINE = 0.97  # between successive tangents, below which a step is repeated, halved
 ON_BOUND = 1e-9  # a solution this close to a bound, in scaled unknowns, is on it
+REACHES = (1e-4, 1e-5)  # how far beyond a solution to look for the equations beyond a kink
 ALIGNED = 0.5  # cosine between the tangents of a walk's first step and of the one that comes back to it
 
 
@@ -44,10 +45,15 @@ class End(Outcome):
         "raise damping_ratio, or narrow the range",
     )
     MAX_STEPS = "max_steps", "it was cut short after max_steps steps: raise max_steps"
+    GRAZES = (
+        "grazes",
+        "its orbit also touches X = +-1 there, a point of codimension two: one more contact moves the multipliers like "
+        "a square root, so that the curve goes on along the grazing, too close to be followed: continue from beyond",
+    )
     LOST = (
         "lost",
-        "no further step converged, as at a degenerate point: continue from an orbit beyond it, "
-        "or change another parameter a little",
+        "no further step converged, as at a kink, which continue_bifurcation passes with over_kinks=True, or at a "
+        "degenerate point: continue from an orbit beyond it, or change another parameter a little",
     )
 
 
@@ -86,6 +92,9 @@ class Problem(Protocol[Data]):
     def ending(self, last: Step[Data], step: Step[Data]) -> tuple[list[Step[Data]], End] | None:
         """Where the walk ends at `step`, after `last`: the steps to end with, and why; None where it goes on."""
 
+    def stop(self, step: Step[Data]) -> End:
+        """Why no step beyond `step` converges, kinks aside."""
+
 
 def null_vector(matrix: NDArray[np.float64]) -> Vector:
     """The unit vector that a matrix maps nearest to zero."""
@@ -120,11 +129,13 @@ def walk_both_ways(
     bounds: Sequence[tuple[float, float]],
     sizes: StepSizes,
     max_steps: int,
+    *,
+    over_kinks: bool = False,
 ) -> tuple[list[Step[Data]], tuple[End, End]]:
     """The steps through the solution `start`, the first parameter rising there, and why they end at either end.
 
     It takes `max_steps` at most each way within `bounds` of the parameters, each way on a copy of the problem, which
-    may remember what it passed.
+    may remember what it passed. Where the equations have a kink it ends, or goes `over_kinks`.
     """
     check_number("largest_step", sizes.largest, above=0.0)
     check_count("max_steps", max_steps)
@@ -137,7 +148,7 @@ def walk_both_ways(
     def walk(direction: Vector) -> tuple[list[Step[Data]], End]:
         own = copy(problem)
         steps: list[Step[Data]] = []
-        for step in _steps_along(own, start, direction, sizes):
+        for step in _steps_along(own, start, direction, sizes, over_kinks):
             if steps:
                 on_bound = _at_bound(own, steps[-1], step, bounds)
                 if on_bound is not None:
@@ -150,7 +161,7 @@ def walk_both_ways(
             steps.append(step)
             if len(steps) > max_steps:
                 return steps, End.MAX_STEPS
-        return steps, End.LOST
+        return steps, own.stop(steps[-1]) if over_kinks else End.LOST
 
     forth, forth_end = walk(onwards)
     if forth_end == End.CLOSED:
@@ -159,21 +170,60 @@ def walk_both_ways(
     return back[:0:-1] + forth, (back_end, forth_end)
 
 
-def _steps_along(problem: Problem[Data], u: Vector, tangent: Vector, sizes: StepSizes) -> Iterator[Step[Data]]:
+def _steps_along(
+    problem: Problem[Data], u: Vector, tangent: Vector, sizes: StepSizes, over_kinks: bool
+) -> Iterator[Step[Data]]:
     """The solution `u` and those beyond it along its tangent, until no step converges.
 
     The step grows after quick convergence and shrinks after none or at a sharp bend.
     """
     yield Step(u, tangent, 0, problem.describe(u))
-    size = sizes.first
-    while size >= sizes.smallest:
-        corrected = correct(problem.equations, u + size * tangent, tangent)
-        if corrected is None or (corrected[1] @ tangent < LEAST_COSINE and size > 8.0 * sizes.smallest):
-            size *= 0.5
-            continue
+    size, walked = sizes.first, [u]
+    while True:
+        corrected = None
+        if size >= sizes.smallest:
+            corrected = correct(problem.equations, u + size * tangent, tangent)
+            if corrected is None or (corrected[1] @ tangent < LEAST_COSINE and size > 8.0 * sizes.smallest):
+                size *= 0.5
+                continue
+        elif over_kinks:
+            corrected, size = _beyond_kink(problem.equations, np.array(walked), tangent, sizes), sizes.first
+        if corrected is None:
+            return
         u, tangent, steps = corrected
+        walked.append(u)
         yield Step(u, tangent, steps, problem.describe(u))
         size = min(sizes.largest, size * (1.5 if steps <= QUICK else 0.8))
+
+
+def _beyond_kink(
+    equations: Equations, walked: NDArray[np.float64], tangent: Vector, sizes: StepSizes
+) -> tuple[Vector, Vector, int] | None:
+    """The first solution beyond a kink, next to which a walk came to a stand, as from `correct`; None where none is.
+
+    Two half curves meet at a kink, each along the null vector of the Jacobian on its own side, either way. The one that
+    has not been `walked` leads on.
+    """
+    u = walked[-1]
+    for reach in REACHES:
+        sides = equations(u + reach * tangent), equations(u - reach * tangent)
+        vectors = [null_vector(side[1]) for side in sides if side is not None]
+        for size in sizes.first * 0.5 ** np.arange(4):
+            for onwards in (sign * vector for vector in vectors for sign in (1.0, -1.0)):
+                guess = u + size * onwards
+                found = correct(equations, guess, onwards)
+                if found is None or found[1] @ onwards < LEAST_COSINE or np.linalg.norm(found[0] - guess) > size:
+                    continue
+                if _distance(found[0], walked) > 0.1 * size:
+                    return found
+    return None
+
+
+def _distance(point: Vector, path: NDArray[np.float64]) -> float:
+    """From a point to a path of straight pieces."""
+    start, along = path[:-1], np.diff(path, axis=0)
+    share = np.clip(np.sum((point - start) * along, axis=1) / np.sum(along**2, axis=1), 0.0, 1.0)
+    return float(np.min(np.linalg.norm(start + share[:, np.newaxis] * along - point, axis=1), initial=np.inf))
 
 
 def _comes_back(steps: list[Step[Data]], step: Step[Data]) -> bool:

@@ -14,6 +14,7 @@ from gearpair.bifurcations._walk import End, Step, StepSizes, Vector, walk_both_
 from gearpair.bifurcations.locating import TOUCHING, Bifurcation
 
 VANISHED = 1e-6  # residual of a bifurcation's equation from which on the extremum that grazed is there no more
+GRAZES = 1e-5  # a lost orbit touches a boundary if an extremum is this close to it: ten differences of its equations
 SIZES = StepSizes(first=1e-3, smallest=1e-8, largest=2e-2)
 
 
@@ -99,6 +100,12 @@ class _CurveProblem(OrbitProblem):
         """The end of a walk at `step`, if it is one."""
         return ([], End.LOST) if abs(step.data) > VANISHED else None
 
+    def stop(self, step: Step[float]) -> End:
+        """Why no step beyond `step` converges: at a fold or a flip a grazing besides, if that is there."""
+        cycle = self.cycle(step.u)
+        grazes = self.kind != "grazing" and abs(cycle.test("grazing")) < GRAZES
+        return End.GRAZES if grazes else End.LOST
+
 
 def continue_bifurcation(
     bifurcation: Bifurcation,
@@ -106,6 +113,7 @@ def continue_bifurcation(
     *,
     largest_step: float = SIZES.largest,
     max_steps: int = 500,
+    over_kinks: bool = False,
 ) -> BifurcationCurve:
     """The curve of a bifurcation in two parameters, in both directions.
 
@@ -118,11 +126,15 @@ def continue_bifurcation(
         ``{"mesh_frequency": (0.6, 1.8), "damping_ratio": (0.0, 0.1)}``.
     largest_step, max_steps
         As in `continue_orbit`; the same errors are raised.
+    over_kinks : bool
+        Go on where the curve has a corner too sharp to be walked around, and name a grazing that ends it.
 
     Notes
     -----
     The orbit's two equations are extended by the function whose zero is the bifurcation, see `continue_orbit`, and
-    followed by pseudo-arclength.
+    followed by pseudo-arclength. The multipliers have a kink where X passes +-1 just as the stiffness switches, as
+    where a section point passes X = 1, and so has the curve. Where a fold or a flip also grazes, the curve comes from
+    the side with fewer contacts and goes on along the grazing, from which it parts like a parabola.
 
     Examples
     --------
@@ -143,7 +155,7 @@ def continue_bifurcation(
             )
     problem = _CurveProblem(bifurcation, {name: upper - lower for name, (lower, upper) in bounds.items()})
     start, sizes = problem.unknowns(bifurcation.x, bifurcation.v), SIZES._replace(largest=largest_step)
-    steps, ends = walk_both_ways(problem, start, list(bounds.values()), sizes, max_steps)
+    steps, ends = walk_both_ways(problem, start, list(bounds.values()), sizes, max_steps, over_kinks=over_kinks)
     first, second = bounds
     return BifurcationCurve(
         kind=bifurcation.kind,

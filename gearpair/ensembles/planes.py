@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
@@ -13,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair._flow.settle import Known
 from gearpair.ensembles.capture import Found, found_in, known_attractors, number_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, settled_columns, variables_of, way_columns
-from gearpair.ensembles.stores import add_column, add_table, by_store, fill, opened_dataset, read_blocks
+from gearpair.ensembles.stores import add_column, add_table, by_store, read_blocks, stored
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import Motion, motions_from
 from gearpair.motion.settling import MANY, BatchOptions, SettleSettings, settle_batch
@@ -24,6 +25,7 @@ from gearpair.oscillator import Oscillator
 if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
+    from zarr import Group
 
 ATTRACTOR_COLUMNS = ("status", "period", "impact_state", "x_min", "x_max", "exponent")
 
@@ -72,6 +74,12 @@ def basins(
     ------
     ImportError
         For a store without zarr, which the extra ``cluster`` brings.
+    ValueError
+        For a store of another call.
+    RuntimeError
+        For a store that another process is writing.
+    FileNotFoundError
+        For a store that has lost a block: it says which.
 
     Notes
     -----
@@ -93,7 +101,7 @@ def basins(
             raise ValueError(f"{name} must be a non-empty sequence of numbers, got shape {values.shape}")
     plane = Plane.of(osc, xs, vs, MANY.having(settling, BatchOptions))
     if by_store(store, client):
-        return _stored(plane, store, client, progress)
+        return stored(plane, store, partial(_number, plane), client=client, progress=progress)
     columns = plane.columns(0, len(vs), progress=progress)
     labels, table = numbered(columns)
     variables = variables_of(columns | {"attractor": labels}, ("v", "x"), (len(vs), len(xs)))
@@ -134,23 +142,20 @@ class Plane:
         return settled_columns(out) | way_columns(out)
 
 
-def _stored(plane: Plane, store: str | Path, client: Client | None, progress: bool) -> xr.Dataset:
-    """`basins` by way of a store: the blocks, then one numbering for the attractors of all."""
-    group = fill(plane, store, client=client, progress=progress)
-    if not group.attrs.get("complete"):
-        names = ["status", "period", "section_x", "section_v", "x_min", "x_max", "exponent", "impact_state"]
-        offsets, n_x = {}, len(plane.axes["x"])
-        found: list[Found] = []
-        for first, _last, columns in read_blocks(plane, group, names):
-            offsets[first] = len(found)
-            found.append(found_in(columns, first * n_x)[0])
-        numbers, table = number_attractors(found)
-        labels = add_column(plane, group, "attractor", np.int64)
-        for first, last, columns in read_blocks(plane, group, names):
-            places = found_in(columns, first * n_x)[1]
-            labels[first:last] = numbers[offsets[first]][places].reshape(last - first, n_x)
-        add_table(group, attractor_variables(table, len(plane.axes["v"]) * n_x, coded=True))
-    return opened_dataset(store)
+def _number(plane: Plane, group: Group) -> None:
+    """One numbering for the attractors of all blocks of a store, and what they are."""
+    names = ["status", "period", "section_x", "section_v", "x_min", "x_max", "exponent", "impact_state"]
+    offsets, n_x = {}, len(plane.axes["x"])
+    found: list[Found] = []
+    for first, _last, columns in read_blocks(plane, group, names):
+        offsets[first] = len(found)
+        found.append(found_in(columns, first * n_x)[0])
+    numbers, table = number_attractors(found)
+    labels = add_column(plane, group, "attractor", np.int64)
+    for first, last, columns in read_blocks(plane, group, names):
+        places = found_in(columns, first * n_x)[1]
+        labels[first:last] = numbers[offsets[first]][places].reshape(last - first, n_x)
+    add_table(group, attractor_variables(table, len(plane.axes["v"]) * n_x, coded=True))
 
 
 def attractor_variables(

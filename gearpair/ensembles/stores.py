@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import errno
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from functools import cache, partial
 from hashlib import sha256
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeGuard
+from warnings import warn
 
 import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
+from gearpair._locks import held
 from gearpair.ensembles.datasets import axis_attributes, variables_of
 
 if TYPE_CHECKING:
@@ -22,6 +26,7 @@ if TYPE_CHECKING:
     from zarr import Group
 
 BLOCK_POINTS = 2**16  # motions of a block, unless one row has more: some seconds of work, some megabytes
+NO_LOCKS = {errno.ENOSYS, errno.ENOTSUP, errno.ENOLCK}  # as on some clusters
 
 
 class MotionGrid(Protocol):
@@ -48,24 +53,69 @@ def by_store(store: str | Path | None, client: Client | None) -> TypeGuard[str |
     return store is not None
 
 
-def fill(grid: MotionGrid, path: str | Path, *, client: Client | None = None, progress: bool = False) -> Group:
-    """Compute what is not yet in the store at `path`, block by block; with a `client`, on its workers.
+def stored(
+    grid: MotionGrid,
+    path: str | Path,
+    rest: Callable[[Group], None] = lambda group: None,
+    *,
+    client: Client | None = None,
+    progress: bool = False,
+) -> xr.Dataset:
+    """What the store at `path` holds once all of `grid` and the `rest` are in it; what is there is not computed again.
 
-    A block counts once all of it is written, so a run killed at any moment goes on where it was. Every chunk of the
-    store belongs to one block, and only one worker has it.
+    Blocks are computed one by one; with a `client`, on its workers. A block counts once all of it is written, so a run
+    killed at any moment goes on where it was. Every chunk of the store belongs to one block, and only one worker has
+    it. The store belongs to the process that calls until `rest`, which writes what needs all blocks, has returned.
 
     Raises
     ------
     ValueError
         For a store made with other arguments or another engine: it says which.
+    RuntimeError
+        Where another process is writing the store.
+    FileNotFoundError
+        For a store that has lost a chunk: it says which.
     """
-    group = _opened(grid, Path(path))
+    path = Path(path)
+    group = _finished(grid, path)
+    if group is None:
+        with _writing(path):
+            group = _opened(grid, path)
+            group.attrs["complete"] = False
+            _fill(grid, group, path, client, progress)
+            rest(group)
+            group.attrs["complete"] = True
+    _check_chunks(grid, group, path, group.array_keys())
+    return opened_dataset(path)
+
+
+@contextmanager
+def _writing(path: Path) -> Iterator[None]:
+    """The store at `path` for this process alone, as far as the file system can tell."""
+    path = path.resolve()
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with ExitStack() as stack:
+        try:
+            stack.enter_context(held(path.parent / f".{path.name}.lock"))
+        except BlockingIOError:
+            raise RuntimeError(
+                f"another run is writing the store at {path}: wait for it, or give another path"
+            ) from None
+        except OSError as error:
+            if error.errno not in NO_LOCKS:
+                raise
+            warn(f"the file system of {path} has no locks: let no other run write this store", stacklevel=2)
+        yield
+
+
+def _fill(grid: MotionGrid, group: Group, path: Path, client: Client | None, progress: bool) -> None:
+    """Compute the blocks that are not there yet."""
     finished = group["done"][:].tolist()
     todo = [i for i, done in enumerate(finished) if not done]
     with tqdm(total=len(finished), initial=len(finished) - len(todo), unit="block", disable=not progress) as bar:
         for _ in map(partial(store_block, grid, str(path)), todo) if client is None else _by(client, grid, path, todo):
             bar.update()
-    return group
+    _check_chunks(grid, group, path, [*grid.axes, *grid.columns(0, 0)])
 
 
 def _by(client: Client, grid: MotionGrid, path: str | Path, todo: list[int]) -> Iterator[None]:
@@ -84,26 +134,48 @@ def store_block(grid: MotionGrid, path: str, i: int, *, cores: bool = True) -> N
     group = zarr.open_group(path, mode="r+")
     first, last = _blocks(grid, group)[i]
     for name, column in grid.columns(first, last, cores=cores).items():
-        array = group[name]
+        array = _whole(group[name])
         array[first:last] = column.reshape(last - first, *array.shape[1:])
     group["done"][i] = True
 
 
 def add_column(grid: MotionGrid, group: Group, name: str, dtype: Any) -> Any:
     """An array of the store for one more number per motion, made anew."""
-    return _create(grid, group, name, np.empty(0, dtype))
+    return _whole(_create(grid, group, name, np.empty(0, dtype)))
 
 
 def add_table(group: Group, variables: Mapping[str, Any]) -> None:
-    """Small variables besides those of each motion; with them a store is complete."""
+    """Small variables besides those of each motion."""
     for name, (dims, values, facts) in variables.items():
         _write(group, name, dims, values, facts)
-    group.attrs["complete"] = True
 
 
 def _write(group: Group, name: str, dims: tuple[str, ...], values: NDArray[Any], facts: Mapping[str, Any]) -> None:
     kind: dict[str, Any] = {"shape": values.shape, "dtype": values.dtype, "dimension_names": dims, "attributes": facts}
-    group.create_array(name, **kind, overwrite=True)[:] = values
+    _whole(group.create_array(name, **kind, overwrite=True))[:] = values
+
+
+def _whole(array: Any) -> Any:
+    """The array, whose chunks are written even where they are all zero: one that is not there has been lost."""
+    return array.with_config({"write_empty_chunks": True})
+
+
+def _check_chunks(grid: MotionGrid, group: Group, path: Path, names: Iterable[str]) -> None:
+    """Raise a FileNotFoundError for the first chunk of the arrays `names` that is not there: zarr reads zeros then.
+
+    A lost mark of ``done`` needs no error: its block is computed again.
+    """
+    for name in names:
+        data = group[name].metadata
+        by_block = data.dimension_names == tuple(grid.axes) and name not in grid.axes
+        for place in np.ndindex(group[name].cdata_shape) if name != "done" else ():
+            chunk = path / name / data.encode_chunk_key(place)
+            if not chunk.exists():
+                remove = path / "done" / group["done"].metadata.encode_chunk_key(place[:1]) if by_block else path
+                raise FileNotFoundError(
+                    f"the store at {path} has lost block {place[0]} of {name}: put {chunk} back, or remove {remove}, "
+                    "and the same call computes it again"
+                )
 
 
 def read_blocks(grid: MotionGrid, group: Group, names: list[str]) -> Any:
@@ -116,8 +188,8 @@ def opened_dataset(path: str | Path) -> xr.Dataset:
     """What a store holds, read when it is asked for; codes stay codes, see `decoded`."""
     import xarray as xr
 
-    stored = xr.open_zarr(path, chunks=None, consolidated=False, mask_and_scale=False)
-    result = stored.drop_vars("done")
+    whole = xr.open_zarr(path, chunks=None, consolidated=False, mask_and_scale=False)
+    result = whole.drop_vars("done")
     result.attrs = {"oscillator": result.attrs["oscillator"]}
     if "attractor_number" in result.sizes:
         result = result.assign_coords(attractor_number=np.arange(result.sizes["attractor_number"]))
@@ -159,28 +231,44 @@ def fingerprint(values: NDArray[Any]) -> str:
     return f"{len(values)} numbers, {sha256(np.ascontiguousarray(values).tobytes()).hexdigest()[:16]}"
 
 
-def _opened(grid: MotionGrid, path: Path) -> Group:
+def _identity(grid: MotionGrid) -> dict[str, str]:
+    axes = {name: fingerprint(values) for name, values in grid.axes.items()}
+    return {**grid.identity, **axes, "engine": engine()}
+
+
+def _finished(grid: MotionGrid, path: Path) -> Group | None:
+    """The store at `path` if it is complete, else None; nothing is written, so that many may read it at once."""
     import zarr
 
-    identity = {
-        **grid.identity,
-        **{name: fingerprint(values) for name, values in grid.axes.items()},
-        "engine": engine(),
-    }
-    if path.exists() and any(path.iterdir()) and not (path / "zarr.json").exists():
-        raise ValueError(f"store must be a new path or one of gearpair's own, got {path}, which holds something else")
-    group = zarr.open_group(str(path), mode="a")
-    made: Mapping[str, Any] = group.attrs.get("identity", {})
-    if not made:
-        _lay_out(grid, group)
-        group.attrs["identity"] = identity  # last: without it the next run begins again
-        return group
-    for name in (*identity, *made):
+    if not (path / "zarr.json").exists():
+        return None
+    group = zarr.open_group(str(path), mode="r")
+    _check_identity(grid, group, path)
+    return group if group.attrs.get("complete") and group["done"][:].all() else None
+
+
+def _check_identity(grid: MotionGrid, group: Group, path: Path) -> None:
+    """Raise a ValueError for the store of another call."""
+    identity, made = _identity(grid), group.attrs.get("identity", {})
+    for name in (*identity, *made) if made else ():
         if made.get(name) != identity.get(name):
             raise ValueError(
                 f"the store at {path} was made with another {name} ({made.get(name)}, now {identity.get(name)}): "
                 "give another path, or remove it"
             )
+
+
+def _opened(grid: MotionGrid, path: Path) -> Group:
+    """The store at `path` to write to, laid out where it is new."""
+    import zarr
+
+    if path.exists() and any(path.iterdir()) and not (path / "zarr.json").exists():
+        raise ValueError(f"store must be a new path or one of gearpair's own, got {path}, which holds something else")
+    group = zarr.open_group(str(path), mode="a")
+    _check_identity(grid, group, path)
+    if not group.attrs.get("identity"):
+        _lay_out(grid, group)
+        group.attrs["identity"] = _identity(grid)  # last: without it the next run begins again
     return group
 
 

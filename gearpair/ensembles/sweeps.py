@@ -21,7 +21,7 @@ from gearpair.ensembles.datasets import (
     settled_variables,
     variables_of,
 )
-from gearpair.ensembles.stores import by_store, fill, opened_dataset
+from gearpair.ensembles.stores import by_store, stored
 from gearpair.motion.measures import measure_columns
 from gearpair.motion.same_orbit import same_motions
 from gearpair.motion.settling import (
@@ -128,18 +128,13 @@ def parameter_map(
         One of the axes: add ``hysteresis``, whether the motion carried up along it, from (x, v) at its first value,
         differs from that carried down. With a `store` it must not be the first axis, along which blocks are cut.
     store, client, progress, **settling
-        As in `gearpair.basins`.
+        As in `gearpair.basins`, and so are the errors.
 
     Returns
     -------
     xarray.Dataset
         The axes are its dimensions, in their order; variables ``status``, ``period``, ``impact_state``,
         ``x_min``, ``x_max``, ``exponent``, ``exponent_error``, and what was asked for.
-
-    Raises
-    ------
-    ImportError
-        For a store without zarr, which the extra ``cluster`` brings.
 
     Examples
     --------
@@ -164,8 +159,7 @@ def parameter_map(
     first_axis = next(iter(checked))
     if carried == first_axis:
         raise ValueError(f"carried must not be the first axis of a stored map, {first_axis!r}: name the axes otherwise")
-    fill(grid, store, client=client, progress=progress)
-    return opened_dataset(store)
+    return stored(grid, store, client=client, progress=progress)
 
 
 @dataclass(frozen=True)

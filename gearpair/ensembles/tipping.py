@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Unpack
+from collections.abc import Collection
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,11 +13,14 @@ from gearpair.ensembles.capture import known_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
 from gearpair.ensembles.planes import ATTRACTOR_COLUMNS
 from gearpair.ensembles.shares import random_starts
-from gearpair.motion.settling import MANY, SettleOptions, settle_batch
+from gearpair.motion.settling import MANY, SettleOptions, SettleSettings, settle_batch
 from gearpair.oscillator import Oscillator
 
 if TYPE_CHECKING:
     import xarray as xr
+
+SMALL_STEPS = 32  # in which a motion that changes much from one value to the next is carried there
+ARRIVED = 1e-3  # how near, in sizes, to the motion found there
 
 
 def continue_attractors(
@@ -40,7 +44,8 @@ def continue_attractors(
     n, x_reach, v_reach, seed
         As in `basin_stability`; the starts are the same at every value.
     nearest : float
-        Attractors of neighbouring values are one if their smallest and largest X differ by no more.
+        Attractors of neighbouring values are one if their smallest and largest X differ by no more than this share of
+        their size, which is the distance of these two, and half the backlash (1) at least.
 
     Returns
     -------
@@ -53,9 +58,9 @@ def continue_attractors(
     Notes
     -----
     The field's "global continuation" (Datseris, Luiz Rossi and Wagemakers, 2023): the attractors of one value are the
-    first starts of the next. An attractor goes on as the one that its own motion settles on, if that is near; where it
-    is not, the attractor has ended, and its motion has tipped. One that turns up again takes its old number, if it is
-    near where it was last seen.
+    first starts of the next. An attractor goes on as the one that its own motion settles on, if that is near, or if a
+    periodic motion carried there in small steps is near at each of them. Where it is not, the attractor has ended, and
+    its motion has tipped. One that turns up again takes its old number, if it is near where it was last seen.
 
     Examples
     --------
@@ -77,7 +82,14 @@ def continue_attractors(
         out = settle_batch([each], here, settings, known=known_attractors(each, here[first], settings))
         labels, table = numbered(settled_columns(out))
         extremes = np.column_stack([table["x_min"], table["x_max"]])
-        given, tipped = _matched(dict(zip(before, labels[n:].tolist(), strict=True)), places, extremes, nearest)
+        leads_to = dict(zip(before, labels[n:].tolist(), strict=True))
+        followed = {
+            number
+            for number, k in leads_to.items()
+            if k >= 0 and table["period"][k] and _apart(extremes[k], places[number]) > nearest
+            and _goes_on(osc, parameter, checked[i - 1 : i + 1], points[number], extremes[k], nearest, settings)
+        }  # fmt: skip
+        given, tipped = _matched(leads_to, places, extremes, nearest, followed)
         counts = np.bincount(labels[:n][labels[:n] >= 0], minlength=len(extremes))
         told = {"share": counts / n, **{name: table[name] for name in ATTRACTOR_COLUMNS}}
         entries += [(i, number, {name: column[k] for name, column in told.items()}) for k, number in enumerate(given)]
@@ -96,17 +108,44 @@ def continue_attractors(
     return dataset(osc, variables, {parameter: checked}).assign_coords(attractor=np.arange(shape[1]))
 
 
+def _apart(extremes: NDArray[np.float64], others: NDArray[np.float64]) -> Any:
+    """How far the extremes (..., 2) of motions are from others, in sizes of the larger motion."""
+    sizes = np.maximum(np.ptp(extremes, axis=-1), np.ptp(others, axis=-1))
+    return np.abs(extremes - others).max(axis=-1) / np.maximum(sizes, 1.0)
+
+
+def _goes_on(
+    osc: Oscillator,
+    parameter: str,
+    ends: NDArray[np.float64],
+    point: NDArray[np.float64],
+    extremes: NDArray[np.float64],
+    nearest: float,
+    settings: SettleSettings,
+) -> bool:
+    """Whether a motion carried from one value to the next is near itself at each small step, and ends at `extremes`."""
+    oscillators, _ = oscillators_along(osc, parameter, np.linspace(ends[0], ends[1], SMALL_STEPS + 1))
+    starts = np.broadcast_to(point, (len(oscillators), 2))
+    way = settle_batch(oscillators, starts, settings, chain=len(oscillators)).extremes[:, :2]
+    return bool(np.all(_apart(way[1:], way[:-1]) <= nearest) and _apart(way[-1], extremes) < ARRIVED)
+
+
 def _matched(
-    leads_to: dict[int, int], places: dict[int, NDArray[np.float64]], extremes: NDArray[np.float64], nearest: float
+    leads_to: dict[int, int],
+    places: dict[int, NDArray[np.float64]],
+    extremes: NDArray[np.float64],
+    nearest: float,
+    followed: Collection[int] = (),
 ) -> tuple[list[int], dict[int, int]]:
     """Numbers for the attractors found here, and for each number that has ended the one that it tips to.
 
-    `leads_to` has, for each number of the value before, the attractor found here that its motion settles on, or -1.
+    `leads_to` has, for each number of the value before, the attractor found here that its motion settles on, or -1;
+    the numbers `followed` there are it, near or not.
     """
     given = [-1] * len(extremes)
-    apart = {number: np.abs(extremes - place).max(axis=1) for number, place in places.items()}
+    apart = {number: _apart(extremes, place) for number, place in places.items()}
     for number, k in sorted(leads_to.items(), key=lambda pair: apart[pair[0]][pair[1]] if pair[1] >= 0 else np.inf):
-        if k >= 0 and given[k] < 0 and apart[number][k] <= nearest:
+        if k >= 0 and given[k] < 0 and (apart[number][k] <= nearest or number in followed):
             given[k] = number
     ended = {number: k for number, k in leads_to.items() if number not in given}
     for k in range(len(given)):

@@ -5,6 +5,7 @@ import pytest
 
 import gearpair as gp
 from gearpair.bifurcations import End
+from gearpair.bifurcations._orbit_problem import describe_cycle
 from gearpair.bifurcations._walk import StepSizes, walk_both_ways
 from tests.support.always_in_contact import edge, edges
 
@@ -106,6 +107,75 @@ def test_two_paths_lead_to_one_curve(kind, printed_branch):
         nearest = min(located, key=lambda b: abs(b.value - curve.values[row, 0]))
         assert nearest.value == pytest.approx(curve.values[row, 0], abs=1e-9)
         assert nearest.contacts == bifurcation.contacts
+
+
+SWAPPED = gp.Oscillator(stiffness=gp.StiffnessWave.rectangular(reading="swapped"))
+
+
+def swapped_flip(start, period, lower, upper, damping=0.02):
+    """The flip of a branch of the swapped reading between two mesh frequencies."""
+    osc = SWAPPED.replace(damping_ratio=damping, mesh_frequency=0.5 * (lower + upper))
+    branch = gp.continue_orbit(gp.periodic_orbit(osc, *start, period), "mesh_frequency", lower, upper)
+    (flip,) = [b for b in branch.bifurcations if b.kind == "flip"]
+    return flip
+
+
+def test_over_a_kink_a_flip_goes_on_as_it_is_located_beyond():
+    """Where the section point passes X = 1 the curve has a corner; at smaller damping the flip is located anew."""
+    flip = swapped_flip((1.007, -0.34), 1, 0.81, 0.83)
+    bounds = {"mesh_frequency": (0.6, 1.8), "damping_ratio": (0.0194, 0.06)}
+    stopped = gp.continue_bifurcation(flip, bounds)
+    assert stopped.ends == ("lost", "bound") and "over_kinks=True" in stopped.ends[0].remedy
+    assert stopped.values[0] == pytest.approx([0.816995, 0.0194159], abs=1e-6)
+    assert stopped.points[0, 0] == pytest.approx(1.0, abs=1e-5)
+    curve = gp.continue_bifurcation(flip, bounds, over_kinks=True)
+    assert curve.ends == ("bound", "bound") and np.max(np.abs(curve.residual)) < 1e-10
+    assert curve.values[0, 1] == pytest.approx(0.0194, abs=1e-15)
+    beyond = swapped_flip((1.008, -0.34), 1, 0.815, 0.83, 0.0194)
+    assert curve.values[0, 0] == pytest.approx(beyond.value, abs=1e-9)
+    # No part of it is walked twice: damping falls all the way to the lower bound.
+    assert np.all(np.diff(curve.values[:, 1]) > 0.0)
+
+
+def test_over_a_kink_a_fold_is_one_curve_from_either_of_its_folds(printed_branch):
+    """Two folds at the baseline's damping lie on the two sides of a corner near (1.3615, 0.0095)."""
+    bounds = {"mesh_frequency": (0.4, 1.9), "damping_ratio": (0.001, 0.1)}
+    folds = [b for b in printed_branch.bifurcations if b.kind == "fold"]
+    pair = [min(folds, key=lambda b: abs(b.value - near)) for near in (1.1907, 0.8070)]
+    for fold in pair:
+        assert "lost" in gp.continue_bifurcation(fold, bounds).ends
+        curve = gp.continue_bifurcation(fold, bounds, over_kinks=True)
+        assert curve.ends == ("bound", "bound")
+        assert sorted(curve.values[[0, -1], 0]) == pytest.approx([0.79311787, 1.1413738], abs=1e-7)
+
+
+def test_two_flips_that_end_together_end_where_the_orbit_also_grazes():
+    """Near (1.3847, 0.0594) the multiplier is -1 as the orbit touches X = 1: a point of codimension two.
+
+    On the side with one contact more the gap of that contact grows with the square of the distance from there.
+    """
+    bounds = {"mesh_frequency": (0.4, 1.9), "damping_ratio": (0.001, 0.1)}
+    fewer = gp.continue_bifurcation(swapped_flip((0.011, 0.074), 2, 0.862, 0.871), bounds, over_kinks=True)
+    more = gp.continue_bifurcation(swapped_flip((0.860, -0.1755), 2, 1.432, 1.4366), bounds, over_kinks=True)
+    assert fewer.ends[-1] == "grazes" == more.ends[0]
+    assert "codimension two" in more.ends[0].remedy
+    point = fewer.values[-1]
+    assert point == pytest.approx([1.384697, 0.059435], abs=1e-6)
+    assert more.values[0] == pytest.approx(point, abs=2e-3)
+
+    def gap(curve, row):
+        osc = SWAPPED.replace(**dict(zip(curve.parameters, curve.values[row].tolist(), strict=True)))
+        cycle = describe_cycle(osc.coefficients, *curve.points[row], curve.period)
+        return cycle.contacts, cycle.test("grazing")
+
+    contacts, away = gap(fewer, -1)
+    assert contacts == (1, 0) and -1e-5 < away < 0.0
+    rows = [int(np.argmin(np.abs(more.values[:, 0] - omega))) for omega in (1.3856, 1.386, 1.387)]
+    gaps = [gap(more, row) for row in rows]
+    assert {contacts for contacts, _ in gaps} == {(2, 0)}
+    distances = more.values[rows, 0] - point[0]
+    ratios = np.array([away for _, away in gaps]) / distances**2
+    assert ratios == pytest.approx(np.full(3, ratios[0]), rel=0.05)
 
 
 def test_steps_are_counted_each_way(tongue_flip):

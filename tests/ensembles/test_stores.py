@@ -1,11 +1,13 @@
 """Zarr stores: the same bits as without, resumed after a kill, on a cluster, refused where they are another's."""
 
+import errno
 import os
 import signal
 import subprocess
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -171,3 +173,107 @@ def test_again_and_again_a_worker_is_killed_on_the_way(tmp_path, monkeypatch):
                 time.sleep(0.05)
             client.wait_for_workers(3)
     assert all(unfinished)
+
+
+WRITER = """
+import sys
+import time
+import numpy as np
+import gearpair as gp
+from gearpair.ensembles import stores
+
+def slow(grid, path, i, **how):
+    time.sleep(0.3)  # so that the other one comes while this one is at it
+    store_block(grid, path, i, **how)
+
+stores.BLOCK_POINTS, store_block, stores.store_block = 25, stores.store_block, slow
+plane = gp.Oscillator(mesh_frequency=0.9), np.linspace(-3, 3, 12), np.linspace(-2, 2, 10)
+gp.basins(*plane, n_exponent=50)
+print("ready", flush=True)
+sys.stdin.readline()
+try:
+    gp.basins(*plane, n_exponent=50, store=sys.argv[1])
+    print("written")
+except RuntimeError as told:
+    print(told)
+"""
+
+
+def test_of_two_that_start_one_store_together_one_is_told(tmp_path):
+    """Two processes at once: one writes the store, the other says in a sentence that it is being written."""
+    script, path = tmp_path / "write.py", tmp_path / "plane"
+    script.write_text(WRITER)
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "NUMBA_NUM_THREADS": "1"}
+    command = [sys.executable, str(script), str(path)]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True, "env": environment}
+    runs = [subprocess.Popen(command, **pipes) for _ in range(2)]
+    assert [run.stdout.readline() for run in runs] == ["ready\n"] * 2
+    for run in runs:
+        run.stdin.write("go\n")
+        run.stdin.flush()
+    told = sorted(run.communicate(timeout=60)[0] for run in runs)
+    assert told == [f"another run is writing the store at {path}: wait for it, or give another path\n", "written\n"]
+    assert_identical(decoded(gp.basins(OSC, X, V, n_exponent=50, store=path)), gp.basins(OSC, X, V, n_exponent=50))
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["plane", "write.py"]
+
+
+def test_again_and_again_two_start_one_store_together(tmp_path):
+    """Two threads at once, in turn: each has the whole plane or is told, and the store is whole for the next."""
+    plain = gp.basins(OSC, X, V, n_exponent=50)
+
+    def write(path, together):
+        together.wait()
+        try:
+            return gp.basins(OSC, X, V, n_exponent=50, store=path)
+        except RuntimeError as told:
+            assert "another run is writing" in str(told)
+            return None
+
+    for k in range(6):
+        path, together = tmp_path / str(k), threading.Barrier(2)
+        with ThreadPoolExecutor(2) as pool:
+            both = list(pool.map(write, [path] * 2, [together] * 2))
+        whole = [each for each in both if each is not None]
+        assert whole
+        for each in [*whole, gp.basins(OSC, X, V, n_exponent=50, store=path)]:
+            assert_identical(decoded(each), plain)
+
+
+def test_a_file_system_without_locks_is_told_of(tmp_path, monkeypatch):
+    def fails(lock):
+        raise OSError(errno.ENOSYS, "Function not implemented")
+
+    monkeypatch.setattr(stores, "held", fails)
+    with pytest.warns(UserWarning, match="has no locks: let no other run write this store"):
+        gp.basins(OSC, X, V, n_exponent=50, store=tmp_path / "plane")
+
+
+@pytest.mark.parametrize("name", ["period", "status", "attractor"])
+def test_a_lost_block_is_named_and_computed_again(tmp_path, name):
+    """Also one of zeros alone, as all statuses are here: zarr would not write it, and reads zeros for what is lost."""
+    path, osc = tmp_path / "plane", gp.Oscillator(damping_ratio=0.1)
+    plain = gp.basins(osc, X, V, store=path).load()
+    assert np.all(plain.status == 0)
+    (path / name / "c" / "1" / "0").unlink()
+    with pytest.raises(FileNotFoundError, match=rf"at {path} has lost block 1 of {name}: .* or remove {path}/done/c/1"):
+        gp.basins(osc, X, V, store=path)
+    (path / "done" / "c" / "1").unlink()
+    assert_identical(gp.basins(osc, X, V, store=path).load(), plain)
+
+
+def test_a_lost_block_is_named_before_a_run_goes_on(tmp_path):
+    path = tmp_path / "map"
+    gp.parameter_map(OSC, AXES, **MAP, store=path)
+    zarr.open_group(path, mode="r+").attrs["complete"] = False
+    (path / "drive_impacts" / "c" / "0" / "0").unlink()
+    with pytest.raises(FileNotFoundError, match="has lost block 0 of drive_impacts"):
+        gp.parameter_map(OSC, AXES, **MAP, store=path)
+
+
+@pytest.mark.parametrize("name", ["x", "attractor_period"])
+def test_a_lost_axis_or_table_is_named(tmp_path, name):
+    path = tmp_path / "plane"
+    gp.basins(OSC, X, V, n_exponent=50, store=path)
+    (path / name / "c" / "0").unlink()
+    with pytest.raises(FileNotFoundError, match=rf"has lost block 0 of {name}: put .* back, or remove {path}, and"):
+        gp.basins(OSC, X, V, n_exponent=50, store=path)

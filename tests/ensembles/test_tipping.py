@@ -24,6 +24,26 @@ def test_one_that_is_far_is_new_one_that_comes_back_takes_its_number_and_escape_
     assert _matched({0: -1}, places, np.empty((0, 2)), 0.3) == ([], {0: -2})
 
 
+def test_near_is_a_share_of_the_size_and_a_motion_that_was_followed_goes_on():
+    places = {0: np.array([-18.0, 15.0]), 1: np.array([0.0, 1.0])}
+    here = np.array([[-22.0, 19.0], [0.4, 1.4]])
+    assert _matched({0: 0, 1: 1}, places, here, 0.3) == ([0, 2], {1: 2})
+    grown = np.array([[-180.0, 150.0]])
+    assert _matched({0: 0}, places, grown, 0.3) == ([2], {0: 2})
+    assert _matched({0: 0}, places, grown, 0.3, {0}) == ([0], {})
+
+
+def test_a_motion_that_grows_without_bound_is_one_and_does_not_tip():
+    """Towards contact's parametric resonance one stable period 1 grows seventyfold, the last step tenfold."""
+    values = np.linspace(0.88, 0.92, 9)
+    shares = ensembles.continue_attractors(gp.Oscillator(), "mesh_frequency", values, n=100)
+    (number,) = np.flatnonzero(shares.attractor_x_min.min("mesh_frequency") < -10.0)
+    grown = shares.isel(attractor=number)
+    assert np.all(grown.attractor_period == 1) and np.all(grown.share > 0.0) and np.all(grown.tips_to == -1)
+    assert grown.attractor_x_min[0] > -19.0 and grown.attractor_x_min[-1] < -1200.0
+    assert not np.any(shares.tips_to == number)
+
+
 def test_shares_sum_to_one_and_follow_the_basins():
     """At the baseline period 1 and 2 share the plane; above 0.1 period 1 has it alone, without the clatter."""
     shares = ensembles.continue_attractors(gp.Oscillator(), "damping_ratio", [0.02, 0.021, 0.1], n=120)

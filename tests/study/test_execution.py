@@ -11,7 +11,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
-from gearpair.study import claims
+from gearpair import _locks
 from gearpair.study.claims import claimed
 from gearpair.study.cli import main
 from gearpair.study.errors import StudyError
@@ -148,14 +148,14 @@ def test_a_claim_is_one_at_a_time_and_cleared_of_what_was_left(tmp_path):
 
 def test_a_claim_that_was_cleared_before_it_was_locked_is_made_again(tmp_path, monkeypatch):
     """Another run may end between the opening of the lock and the locking."""
-    lock, cleared = claims._lock, []
+    lock, cleared = _locks._lock, []
 
     def slow_lock(descriptor):
         if not cleared:
             cleared.append(shutil.rmtree(tmp_path / ".out.running"))
         lock(descriptor)
 
-    monkeypatch.setattr(claims, "_lock", slow_lock)
+    monkeypatch.setattr(_locks, "_lock", slow_lock)
     with claimed(tmp_path / "out") as scratch:
         assert cleared and (scratch / "lock").exists()
 
