@@ -17,6 +17,18 @@ from docutils.statemachine import StringList
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
+# What Python makes of the types and defaults in a signature, and what the source says.
+ANY_ARRAY = "_Buffer | _SupportsArray[dtype[Any]] | _NestedSequence[_SupportsArray[dtype[Any]]] | complex | bytes | str"
+ANY_ARRAY += " | _NestedSequence[complex | bytes | str]"
+SAID = (
+    (r"~?\b(?:[A-Za-z_]\w*\.)+(?=[A-Za-z_])", ""),
+    (re.escape(ANY_ARRAY), "ArrayLike"),
+    (r"ndarray\[tuple\[Any, \.\.\.\], dtype\[(\w+)\]\]", r"NDArray[\1]"),
+    (r"GearBlank\(rim_mm=None[^)]*\)", "GearBlank()"),
+    (r"\*?<class '(?:\w+\.)*(\w+)'>", r"Unpack[\1]"),
+    (r"<factory>", "..."),
+)
+
 MODULES = ("oscillator", "stiffness", "drive", "quantities", "table", "parameters")
 FOLDERS = (
     "teeth",
@@ -110,9 +122,16 @@ def without_machinery(app: Sphinx, what: str, name: str, obj: object, skip: bool
     return True if str(getattr(obj, "__doc__", "")).startswith("Alias for field number") else None
 
 
-def signature(app: Sphinx, what: str, name: str, obj: object, *_: object) -> tuple[str, str] | None:
-    """An enumeration is not made by calling it, so it is shown without the call."""
-    return ("", "") if isinstance(obj, enum.EnumMeta) else None
+def signature(
+    app: Sphinx, what: str, name: str, obj: object, options: object, arguments: str | None, returns: str | None
+) -> tuple[str | None, str | None]:
+    """Types and defaults by their short names; an enumeration, which is not made by calling it, without the call."""
+    if isinstance(obj, enum.EnumMeta):
+        return "", ""
+    texts = [arguments, returns]
+    for pattern, said in SAID:
+        texts = [text and re.sub(pattern, said, text) for text in texts]
+    return texts[0], texts[1]
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

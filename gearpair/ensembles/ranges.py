@@ -111,13 +111,14 @@ def swept_parameter(result: xr.Dataset) -> str:
 def representatives(
     osc: Oscillator,
     *sweeps: xr.Dataset,
-    motions: Sequence[Motion] = (periodic(1), periodic(2), periodic(3), periodic(4), CHAOS),
+    motions: Sequence[Motion] | None = None,
     near: Mapping[Motion, float] | None = None,
 ) -> dict[Motion, SteadyState]:
     """One settled motion of each kind in `motions`, whatever its impact state, from the sweeps of `osc` that met it.
 
     The sweeps are asked in turn, the preferred first, and the first that met the motion gives it: at the middle of its
     widest run, or at the value nearest to the one given for it in `near`. A motion that no sweep met is left out.
+    Unless `motions` are given, they are the periods 1 to 4 and chaos.
 
     Examples
     --------
@@ -127,7 +128,7 @@ def representatives(
     {'period 2': 0.7, 'period 4': 0.78}
     """
     found = {}
-    for motion in motions:
+    for motion in (*map(periodic, range(1, 5)), CHAOS) if motions is None else motions:
         for result in sweeps:
             parameter = swept_parameter(result)
             met = [run for run in motion_ranges(result) if run.motion == motion]
