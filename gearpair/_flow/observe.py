@@ -1,12 +1,13 @@
-"""What is observed over a span of the motion: Lyapunov exponents, blows and forces."""
+"""What is observed over a span of the motion: samples, Lyapunov exponents, blows and forces."""
 
 import numpy as np
 
-from ._kernel import Array, allocating_kernel, kernel
+from ._kernel import Array, Integers, allocating_kernel, kernel
 from .cells import Cells
 from .closed_form import TERMS
 from .measures import HIGHEST, LOWEST, Measures, finish_measures
 from .reach import begin_reach
+from .records import Samples
 from .tangent import set_identity
 from .walk import OK, Details, inlined_walk, walk
 
@@ -26,6 +27,15 @@ def measure(cells: Cells, x: float, v: float, n_periods: int, series: Array, row
     if status == OK:
         finish_measures(measures, cells, n_periods)
     return status
+
+
+@allocating_kernel
+def record(
+    cells: Cells, x: float, v: float, n_periods: int, per_period: int, values: Array, crossings: Array, counts: Integers
+) -> tuple[int, float, float]:
+    """The walk over `n_periods` with what `Samples` of these arrays take on the way: (status, x, v)."""
+    samples = Samples(per_period, values, crossings, counts)
+    return walk(cells, x, v, n_periods, np.empty(TERMS), None, None, Details(samples, None, None, None, None))
 
 
 @kernel

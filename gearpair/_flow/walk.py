@@ -91,40 +91,44 @@ def inlined_walk(
     details: Details | None = None,
 ) -> tuple[int, float, float]:
     """`walk` for kernels that ask for one period at a time: a call, two dozen arrays, costs a tenth of a period."""
-    region = first_region(cells, x, v)
+    place = Place(x, v, first_region(cells, x, v), 0)
     for period in range(n_periods):
-        events = 0
-        for b in range(cells.block_width.size):
-            if reach is None and details is None:
-                row = cells.block_maps[b, region + 1]
-                certain, x1, v1, _low, _high = follow_row(row, cells.block_width[b], x, v, region)
+        place = Place(place.x, place.v, place.region, 0)
+        if reach is None and details is None:
+            for b in range(cells.block_width.size):
+                row = cells.block_maps[b, place.region + 1]
+                certain, x, v, _low, _high = follow_row(row, cells.block_width[b], place.x, place.v, place.region)
                 if certain:
                     apply_map(m, row)
-                    x, v = x1, v1
+                    place = Place(x, v, place.region, place.events)
                     continue
-            status, place = walk_block(cells, period, b, Place(x, v, region, events), series, m, reach, details)
-            x, v, region, events = place
+                span = cells.blocks[b], cells.blocks[b + 1]
+                status, place = walk_cells(cells, period, span, place, series, m, reach, details)
+                if status != OK:
+                    return status, place.x, place.v
+        else:
+            status, place = walk_cells(cells, period, (0, cells.level.size), place, series, m, reach, details)
             if status != OK:
-                return status, x, v
-        if not abs(x) + abs(v) <= cells.escape_radius:
-            return ESCAPED, x, v
-    return OK, x, v
+                return status, place.x, place.v
+        if not abs(place.x) + abs(place.v) <= cells.escape_radius:
+            return ESCAPED, place.x, place.v
+    return OK, place.x, place.v
 
 
 @inlined_kernel
-def walk_block(
+def walk_cells(
     cells: Cells,
     period: int,
-    b: int,
+    span: tuple[int, int],
     place: Place,
     series: Array,
     m: Array | None,
     reach: Array | None,
     details: Details | None,
 ) -> tuple[int, Place]:
-    """A block that is not followed as a whole: its cells one by one, by their maps or event by event."""
+    """The cells of a `span`, first and beyond the last, one by one: by their maps, or event by event."""
     x, v, region, events = place
-    first, last = cells.blocks[b], cells.blocks[b + 1]
+    first, last = span
     for j in range(first, last):
         if details is None and (reach is not None or last - first > 1):
             row = cells.maps[j, region + 1]

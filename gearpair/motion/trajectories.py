@@ -11,14 +11,13 @@ from gearpair._checks import check_count
 from gearpair._cores import on_all_cores
 from gearpair._equality import equal_by_value
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.records import Samples
+from gearpair._flow.observe import record
 from gearpair._flow.walk import (
     ESCAPED,
     EVENT_UNDECIDED,
     MAX_EVENTS_PER_PERIOD,
     OK,
     TOO_MANY_EVENTS,
-    Details,
     walk,
     walk_starts,
 )
@@ -194,15 +193,13 @@ def trajectory(
     n_periods = check_count("n_periods", n_periods)
     n_transient = check_count("n_transient", n_transient, at_least=0)
     samples_per_period = check_count("samples_per_period", samples_per_period)
-    series = np.empty(TERMS)
-    status, x, v = walk(osc.cells, x, v, n_transient, series)
+    status, x, v = walk(osc.cells, x, v, n_transient, np.empty(TERMS))
     raise_unless_ok(status, n_transient)
     samples = np.empty((n_periods * samples_per_period + 1, 2))
     crossings = np.empty((0, 4))
     for _ in range(2):  # once to count the crossings, once to list them
         counts = np.zeros(2, np.int64)
-        details = Details(samples=Samples(samples_per_period, samples, crossings, counts))
-        status, *samples[-1] = walk(osc.cells, x, v, n_periods, series, None, None, details)
+        status, *samples[-1] = record(osc.cells, x, v, n_periods, samples_per_period, samples, crossings, counts)
         raise_unless_ok(status, n_transient + int(counts[0]) // samples_per_period)
         crossings = np.empty((int(counts[1]), 4)) if len(crossings) == 0 else crossings
     impacts = Impacts(
