@@ -199,6 +199,7 @@ except RuntimeError as told:
 """
 
 
+@pytest.mark.slow
 def test_of_two_that_start_one_store_together_one_is_told(tmp_path):
     """Two processes at once: one writes the store, the other says in a sentence that it is being written."""
     script, path = tmp_path / "write.py", tmp_path / "plane"
@@ -217,6 +218,7 @@ def test_of_two_that_start_one_store_together_one_is_told(tmp_path):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["plane", "write.py"]
 
 
+@pytest.mark.slow
 def test_again_and_again_two_start_one_store_together(tmp_path):
     """Two threads at once, in turn: each has the whole plane or is told, and the store is whole for the next."""
     plain = gp.basins(OSC, X, V, n_exponent=50)
