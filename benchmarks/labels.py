@@ -81,9 +81,10 @@ def compare(case: Case, n: int, seed: int = 0) -> Outcome:
     osc = case.oscillator
     starts = np.random.default_rng(seed).uniform(-1.0, 1.0, (n, 2)) * case.reach
     settings = SettleSettings(n_exponent=500, n_samples=64)
-    out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[scouts(n)], settings))
-    labels, known = numbered(settled_columns(out))
-    first = known["first"]
+    known = known_attractors(osc, starts[scouts(n)], settings)
+    out = settle_batch([osc], starts, settings, known=known)
+    result = numbered(settled_columns(out), settings.before_watch(osc), known.lasting)
+    labels, first = result.columns["attractor"], result.table["first"]
     periodic = out.status == STATUSES.index(Status.PERIODIC)
     ends = march_on(osc, starts, -out.exponents[periodic, 0].max(initial=-osc.damping_ratio))
     changed = int(np.sum(periodic & (np.abs(gaps(ends, labels, out.points[first], out.period[first])) > ON_ORBIT)))

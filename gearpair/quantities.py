@@ -81,6 +81,10 @@ ROWS = (
     Quantity("exponent_error", "standard error of the largest exponent"),
     Quantity("section_x", "{} on the section, the smallest of the cycle; nan unless periodic", "X"),
     Quantity("section_v", "{} there", "X'"),
+    Quantity("lasted", "mesh periods followed; of a periodic motion, until it had settled"),
+    Quantity("chaos_x_min", "smallest X while it was chaotic; nan if it never was observed to be", "X_min"),
+    Quantity("chaos_x_max", "largest X while it was chaotic", "X_max"),
+    Quantity("chaos_exponent", "largest Lyapunov exponent while it was chaotic, per unit tau", "lambda_1"),
     Quantity(
         "settling_time", "mesh periods until the motion was certain to stay with its attractor",
         axis="settling time (mesh periods)",
@@ -90,6 +94,9 @@ ROWS = (
     Quantity("largest_displacement", "largest {} on the whole way, the attractor included", "|X|", axis="largest {}"),
     # Several motions.
     Quantity("attractor", "number of the attractor"),
+    Quantity("chaotic_set", "number of the chaotic set that the motion was on, -1 if none"),
+    Quantity("leads_to", "share of the motions that left the set for the attractor"),
+    Quantity("still", "motions still on the set"),
     Quantity("tips_to", "number of the attractor that one that has ended goes over to"),
     Quantity("share", "share of the starts"),
     Quantity("share_error", "standard error of the share, for starts drawn at random"),
@@ -163,8 +170,8 @@ QUANTITIES = {row.name: row for row in ROWS}
 
 
 def attributes(name: str) -> dict[str, str]:
-    """Long name and units of a dataset's variable, by its name; an attractor's are those of its motion."""
-    quantity = QUANTITIES.get(name) or QUANTITIES[name.removeprefix("attractor_")]
+    """Long name and units of a dataset's variable, by its name; those of an attractor or a set are of its motion."""
+    quantity = QUANTITIES.get(name) or QUANTITIES[name.removeprefix("attractor_").removeprefix("set_")]
     return {"long_name": quantity.long_name, "units": quantity.unit}
 
 

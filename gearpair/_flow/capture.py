@@ -12,8 +12,11 @@ w = S^-1 d, measured by a norm |w|_Q^2 = w' Q w, the mesh period's bound W >= |w
 
 and the section points of the cycle have norms Q_0, Q_1, ... in which S contracts from each to the next (from Lyapunov's
 equation). A radius r whose bound comes back smaller over the whole cycle does so for every smaller radius, as
-the right side grows faster than W: all that starts within r converges to the cycle.
+the right side grows faster than W: all that starts within r converges to the cycle. For the same reason a motion that
+starts within s r, s <= 1, is for ever within s times the most that ``|d| <= alpha W`` allows from r on: the spread.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,9 +27,10 @@ from .newton import derivative
 from .tangent import apply, set_identity
 from .walk import OK, Details, walk
 
-# Columns of a neighbourhood: its centre, its form (QXX dx^2 + 2 QXV dx dv + QVV dv^2 <= 1) and whose it is.
-X, V, QXX, QXV, QVV, OWNER = range(6)
-COLUMNS = 6
+# Columns of a neighbourhood: its centre, its form (QXX dx^2 + 2 QXV dx dv + QVV dv^2 <= 1), whose it is, and how far X
+# may ever be from the cycle's where the motion enters at the edge.
+X, V, QXX, QXV, QVV, OWNER, SPREAD = range(7)
+COLUMNS = 7
 
 # Contraction asked of the norms, as a power of the cycle's own: the nearer to 1, the more they are stretched.
 SHARPNESS = 0.95
@@ -40,11 +44,16 @@ LEAST = 1e-6  # a smaller neighbourhood says no more than a return does
 def inside(neighbourhoods: Array, n: int, x: float, v: float) -> int:
     """The first of `n` neighbourhoods that holds (x, v), or -1."""
     for i in range(n):
-        row = neighbourhoods[i]
-        dx, dv = x - row[X], v - row[V]
-        if row[QXX] * dx * dx + 2.0 * row[QXV] * dx * dv + row[QVV] * dv * dv <= 1.0:
+        if square(neighbourhoods[i], x, v) <= 1.0:
             return i
     return -1
+
+
+@kernel
+def square(row: Array, x: float, v: float) -> float:
+    """The form of a neighbourhood at (x, v): the square of its distance from the centre, 1 at the edge."""
+    dx, dv = x - row[X], v - row[V]
+    return row[QXX] * dx * dx + 2.0 * row[QXV] * dx * dv + row[QVV] * dv * dv
 
 
 @allocating_kernel
@@ -65,30 +74,42 @@ def surround(cells: Cells, x: float, v: float, period: int, owner: float, rows: 
     bounds = np.empty((period + 1, RADII))
     for parts in PARTS:
         bounds[0] = radii
-        if not grow_around(cells, rows, forms, factors, parts, bounds, series):
+        if not grow_around(cells, rows, Norms(forms, factors), parts, bounds, None, series):
             return False
         for k in range(RADII):
             if radii[k] > LEAST and bounds[period, k] < (1.0 - 1e-6) * radii[k]:
+                alone, spread = bounds[:, k : k + 1].copy(), np.zeros(1)
+                grow_around(cells, rows, Norms(forms, factors), parts, alone, spread, series)
                 for i in range(period):
                     rows[i, QXX : QVV + 1] = forms[i] * (1.0 / bounds[i, k] ** 2)
+                    rows[i, SPREAD] = spread[0]
                 return True
     return False
 
 
+class Norms(NamedTuple):
+    """The norms in which the neighbourhoods of a cycle are measured."""
+
+    forms: Array  # (period + 1, 3)
+    factors: Array  # (period,) by which each mesh period contracts
+
+
 @allocating_kernel
 def grow_around(
-    cells: Cells, rows: Array, forms: Array, factors: Array, parts: int, bounds: Array, series: Array
+    cells: Cells, rows: Array, norms: Norms, parts: int, bounds: Array, spread: Array | None, series: Array
 ) -> bool:
     """Let the first row of `bounds` grow around the cycle, a row a mesh period: whether it could be followed.
 
-    A bound beyond its limit cannot come back smaller than it began, and becomes infinite.
+    A bound beyond its limit cannot come back smaller than it began, and becomes infinite. `spread` (1,) is widened to
+    the most that the first, largest, bound lets X be from the cycle's.
     """
+    forms, factors = norms
     flow, before = np.empty((2, 2)), np.empty((2, 2))
     limits = bounds[0] / np.prod(factors)
     for i in range(len(factors)):
         set_identity(flow)
         bounds[i + 1] = bounds[i]
-        growth = Growth(flow, before, forms[i], parts, limits, bounds[i + 1])
+        growth = Growth(flow, before, forms[i], parts, limits, bounds[i + 1], spread)
         details = Details(None, None, None, None, growth)
         status, _x, _v = walk(cells, rows[i, X], rows[i, V], 1, series, None, None, details)
         if status != OK:

@@ -20,6 +20,7 @@ class Growth(NamedTuple):
     parts: int  # of a segment, smaller towards its ends, where the boundary is near
     limits: Array  # (n,) a bound beyond its limit cannot come back smaller than it began, and becomes infinite
     bounds: Array  # (n,)
+    spread: Array | None  # (1,) the most that the first bound lets X be from the cycle's, where that is asked for
 
 
 @kernel
@@ -76,8 +77,17 @@ def grow_in_parts(growth: Growth, cells: Cells, segment: Segment, parts: int, fi
                 rate = h * b * stiffness
                 grown = growth.bounds[k] + rate * excess / (1.0 - rate * a) if rate * a < 1.0 else np.inf
                 growth.bounds[k] = grown
+            widen_spread(growth.spread, a * growth.bounds[0])
         before, gap, bend, gain = at, gap1, bend1, gain1
     return False
+
+
+@kernel
+def widen_spread(spread: Array | None, reach: float) -> None:
+    """Widen `spread` to `reach`, where it is asked for."""
+    if spread is None:
+        return
+    spread[0] = max(spread[0], reach)
 
 
 class Gains(NamedTuple):

@@ -6,15 +6,21 @@
 | on its way | it returns near itself | attempt |
 | attempt | a stable orbit is found whose neighbourhood holds the motion, or to which it has returned | captured |
 | attempt | anything else | on its way; the next return must be closer |
-| on its way | the transient has passed | judged, or exhausted where the work left is too little |
-| judged | it slowly approaches a stable orbit | captured |
-| judged | its exponent is positive, well outside its error | aperiodic |
-| judged | anything else, also after that time | unsettled |
+| on its way | the transient has passed | observed, or exhausted where the work left is too little |
+| observed | it slowly approaches a stable orbit | captured |
+| observed | it floats in the backlash and stays there | floating |
+| observed | it is on a chaotic set that is known to last | aperiodic |
+| observed | anything else | watched |
+| watched | it enters a neighbourhood, returns, or slowly approaches a stable orbit, as before | captured |
+| watched | the work is spent | exhausted |
+| watched | its exponent is positive, well outside its error | aperiodic |
+| watched | anything else | unsettled |
 | any | the walk ends early | escaped, or capped |
 
 A captured motion is periodic: its limit is described, or copied where it is known. The neighbourhoods, which no motion
 leaves, are those of `capture`: of the cycles known beforehand, and of the one that the motion was last seen to
-return near.
+return near. It has settled when it first entered one of its own cycle, whichever way that cycle became known; from
+there on it is followed for as long as the rest can still change the range of its way.
 """
 
 from typing import NamedTuple
@@ -22,7 +28,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ._kernel import Array, Integers, allocating_kernel, kernel
-from .capture import COLUMNS, OWNER, V, X, inside, surround
+from .capture import COLUMNS, OWNER, SPREAD, V, X, inside, square, surround
 from .cells import Cells, Coefficients, build_cells
 from .closed_form import TERMS
 from .newton import NEWTON_STEPS, SAME_POINT, derivative, distance, minimal_period, newton
@@ -30,7 +36,7 @@ from .observe import exponents, measure
 from .reach import COAST, DRIVE, HIGHEST, LOWEST, begin_reach
 from .walk import ESCAPED, OK, inlined_walk, walk
 
-PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED, NOT_RUN, EXHAUSTED = 0, 1, 2, 3, 4, 5, 6
+PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED, NOT_RUN, EXHAUSTED, TRANSIENT, FLOATING = 0, 1, 2, 3, 4, 5, 6, 7, 8
 
 # A return as close as PROMISING, relative to max(1, |X|, |X'|), is worth a Newton search for a stable orbit whose
 # neighbourhood may capture the motion: a short one, for most are in vain, and then the next return must be LESS as far.
@@ -45,9 +51,13 @@ FIRST_SPAN = 4
 STABLE = 1.0 - 1e-9
 # After the whole transient slower motions count too: a stable orbit within NEAR that the motion approaches.
 NEAR = 1e-2
-# An exponent is resolved when it exceeds this many standard errors.
-RESOLVED = 4.0
+# An exponent is resolved when it exceeds this many standard errors, and what rounding leaves of one that is 0.
+RESOLVED, ROUNDING = 4.0, 1e-9
 EXPONENT_BLOCKS = 20
+# Chaotic motions whose ranges and exponents differ by no more than this are on one set.
+SAME_RANGE, SAME_EXPONENT = 0.25, 0.1
+# The rest of the way is not followed where it can widen the range by less than this, nor for longer than that.
+SEEN, SEEN_OUT = 1e-9, 20_000
 
 
 class Limits(NamedTuple):
@@ -55,6 +65,7 @@ class Limits(NamedTuple):
 
     max_period: int  # the longest period looked for
     n_exponent: int  # mesh periods over which exponents are measured
+    n_watch: int  # mesh periods that a motion is then watched for; without damping nothing settles, and it is not
     most: int  # mesh periods of one motion at most; one that would need more is followed for as many and not judged
 
 
@@ -81,7 +92,9 @@ class Settled(NamedTuple):
     exponents: Array  # (n, 3): largest, smallest, standard error
     final: Array  # (n, 2) the last section point walked to; of a periodic motion, that of its orbit
     attractor: Integers  # (n,) row of the known attractor that captured the motion, or -1
-    way: Array  # (n, 4) until captured or judged: mesh periods, impacts, smallest and largest X
+    way: Array  # (n, 4): mesh periods and impacts until settled, or the transient has passed; smallest and largest X
+    lasted: Integers  # (n,) mesh periods followed; of a periodic motion, until it had settled
+    chaos: Array  # (n, 3) what it was when observed: smallest and largest X, largest exponent; nan if captured before
     measures: Array  # (n, N_MEASURES), or (n, 0) where they are not asked for
 
 
@@ -90,6 +103,7 @@ class Known(NamedTuple):
 
     settled: Settled  # one row an attractor
     neighbourhoods: Array  # (m, COLUMNS), OWNER the attractor's row
+    lasting: Array  # (k, 4) rows as of `Settled.chaos` of motions on sets that last, and mesh periods watched
 
 
 class Scratch(NamedTuple):
@@ -99,6 +113,7 @@ class Scratch(NamedTuple):
     neighbourhoods: Array  # the known ones first, then room for those of one more cycle
     m: Array  # (2, 2)
     reach: Array  # (4,)
+    way: Array  # (4,) the whole way of a motion, as in `Settled`
     series: Array  # (TERMS,)
 
 
@@ -115,9 +130,9 @@ class Course(NamedTuple):
     """Where a motion has been followed to."""
 
     status: int  # of the walk
-    x: float  # the last point reached; of a captured motion, its limit
+    x: float  # the last point reached
     v: float
-    owner: int  # row of the known attractor that captured it, or -1
+    held: int  # the neighbourhood that holds it, among the scratch, or -1
     orbit: Orbit  # that captured it, where it is not known
 
 
@@ -134,7 +149,7 @@ def make_scratch(known: Known, max_period: int) -> Scratch:
     n = len(known.neighbourhoods)
     neighbourhoods = np.empty((n + max_period, COLUMNS))
     neighbourhoods[:n] = known.neighbourhoods
-    return Scratch(known, neighbourhoods, np.empty((2, 2)), np.empty(4), np.empty(TERMS))
+    return Scratch(known, neighbourhoods, np.empty((2, 2)), np.empty(4), np.empty(4), np.empty(TERMS))
 
 
 @kernel
@@ -182,14 +197,16 @@ def attempt(
     n = orbit.n_neighbourhoods
     same = orbit.period > 0 and distance(found.x, found.v, orbit.x, orbit.v) <= SAME_POINT
     if not same and inside(rows, n_known + n, found.x, found.v) < 0:
-        certain = surround(cells, found.x, found.v, found.period, -1.0, rows[n_known:], work.series)
+        # From the same point of the cycle, whoever finds it.
+        xs, vs = smallest_point(cells, found.x, found.v, found.period, work.series)
+        certain = surround(cells, xs, vs, found.period, -1.0, rows[n_known:], work.series)
         n = found.period if certain else 0
     return True, Orbit(found.period, found.x, found.v, n)
 
 
 @kernel
-def follow(cells: Cells, x: float, v: float, n_transient: int, max_period: int, way: Array, work: Scratch) -> Course:
-    """Follow a motion until it is captured, `n_transient` periods at most. Fills `way` (4,)."""
+def follow(cells: Cells, x: float, v: float, n_periods: int, max_period: int, work: Scratch) -> Course:
+    """Follow a motion until it is captured, `n_periods` at most. Adds to the work's way."""
     rows, n_known = work.neighbourhoods, len(work.known.neighbourhoods)
     orbit = Orbit(0, x, v, 0)
     begin_reach(work.reach, x)
@@ -197,7 +214,7 @@ def follow(cells: Cells, x: float, v: float, n_transient: int, max_period: int, 
     x0, v0 = x, v
     status, returned = OK, False
     held = inside(rows, n_known, x, v)
-    while held < 0 and done < n_transient and not returned:
+    while held < 0 and done < n_periods and not returned:
         status, x, v = inlined_walk(cells, x, v, 1, work.series, None, work.reach)
         if status != OK:
             break
@@ -213,14 +230,30 @@ def follow(cells: Cells, x: float, v: float, n_transient: int, max_period: int, 
             closeness = max(RETURNED, LESS * closeness)
         if within >= min(span, max_period):
             x0, v0, within, span = x, v, 0, 2 * span
-    way[0], way[1] = done, work.reach[DRIVE] + work.reach[COAST]
-    way[2], way[3] = work.reach[LOWEST], work.reach[HIGHEST]
-    if held >= 0:
-        owner = int(rows[held, OWNER]) if held < n_known else -1
-        return Course(OK, rows[held, X], rows[held, V], owner, orbit)
-    if returned:
-        return Course(OK, orbit.x, orbit.v, -1, orbit)
-    return Course(status, x, v, -1, Orbit(0, x, v, 0))
+    extend(work.way, done, work.reach)
+    if held < n_known and (held >= 0 or not returned):
+        orbit = Orbit(0, x, v, 0)
+    return Course(status, x, v, held, orbit)
+
+
+@kernel
+def extend(way: Array, n_periods: int, reach: Array) -> None:
+    """Add `n_periods` with a reach to a way."""
+    way[0] += n_periods
+    way[1] += reach[DRIVE] + reach[COAST]
+    way[2], way[3] = min(way[2], reach[LOWEST]), max(way[3], reach[HIGHEST])
+
+
+@kernel
+def undecided(course: Course) -> bool:
+    """Whether a motion stayed bounded and nothing has captured it."""
+    return course.status == OK and not captured(course)
+
+
+@kernel
+def captured(course: Course) -> bool:
+    """Whether an orbit has captured a motion."""
+    return course.held >= 0 or course.orbit.period > 0
 
 
 @kernel
@@ -247,27 +280,90 @@ def approached(cells: Cells, x: float, v: float, max_period: int, work: Scratch)
 
 
 @kernel
-def judge(cells: Cells, course: Course, limits: Limits, work: Scratch, out: Settled, i: int) -> Course:
-    """What a motion is that was not captured.
+def floats(cells: Cells, x: float, v: float, work: Scratch) -> bool:
+    """Whether a motion repeats within the backlash, as only without a mean force: one of a family, shifted at will."""
+    if cells.damping_ratio == 0.0:
+        return False
+    begin_reach(work.reach, x)
+    status, x1, v1 = walk(cells, x, v, 1, work.series, None, work.reach)
+    repeats = status == OK and distance(x1, v1, x, v) <= RETURNED
+    return repeats and work.reach[LOWEST] > -1.0 and work.reach[HIGHEST] < 1.0
 
-    Of one that approaches no orbit, row `i` of `out` gets the exponents and extremes over `n_exponent` periods, and
-    where these began.
-    """
-    course = approached(cells, course.x, course.v, limits.max_period, work)
-    if course.orbit.period > 0 or course.status != OK:
-        return course
+
+@kernel
+def observed_periods(n_exponent: int) -> int:
+    """Mesh periods of `observe`: a block to turn the direction, and those that count, in whole blocks."""
+    return max(1, n_exponent // EXPONENT_BLOCKS) * (EXPONENT_BLOCKS + 1)
+
+
+@kernel
+def observe(cells: Cells, course: Course, n_exponent: int, work: Scratch, out: Settled, i: int) -> Course:
+    """The exponents and extremes over `n_exponent` periods, into row `i` of `out`, and where these began."""
     out.points[i, 0, 0], out.points[i, 0, 1] = course.x, course.v
-    per_block = max(1, limits.n_exponent // EXPONENT_BLOCKS)
+    per_block = max(1, n_exponent // EXPONENT_BLOCKS)
     status, x, v, largest, error = exponents(
-        cells, course.x, course.v, per_block, limits.n_exponent, EXPONENT_BLOCKS, work.reach
+        cells, course.x, course.v, per_block, n_exponent, EXPONENT_BLOCKS, work.reach
     )
+    extend(work.way, observed_periods(n_exponent), work.reach)
     fill_exponents(cells, largest, error, out.exponents[i])
     out.extremes[i, 0], out.extremes[i, 1] = work.reach[LOWEST], work.reach[HIGHEST]
-    if status == OK and not largest > RESOLVED * error:
-        out.status[i] = UNSETTLED
-        return approached(cells, x, v, limits.max_period, work)
-    out.status[i] = APERIODIC
-    return Course(status, x, v, -1, Orbit(0, x, v, 0))
+    out.chaos[i, 0], out.chaos[i, 1], out.chaos[i, 2] = work.reach[LOWEST], work.reach[HIGHEST], largest
+    return Course(status, x, v, -1, course.orbit)
+
+
+@kernel
+def lasts(lasting: Array, chaos: Array) -> bool:
+    """Whether an observed motion is on a chaotic set that is known to last."""
+    for row in lasting:
+        if (
+            max(abs(row[0] - chaos[0]), abs(row[1] - chaos[1])) <= SAME_RANGE
+            and abs(row[2] - chaos[2]) <= SAME_EXPONENT
+        ):
+            return True
+    return False
+
+
+@kernel
+def resolved(exponents: Array) -> bool:
+    """Whether the largest exponent of a row is positive, well outside its error."""
+    return exponents[0] > max(RESOLVED * exponents[2], ROUNDING)
+
+
+@kernel
+def judge(cells: Cells, course: Course, limits: Limits, work: Scratch, out: Settled, i: int) -> Course:
+    """What a motion is that was not captured when its transient had passed: row `i` of `out` gets its status.
+
+    It is captured all the same if it settles while it is watched.
+    """
+    begun = course
+    course = approached(cells, begun.x, begun.v, limits.max_period, work)
+    if not undecided(course):
+        return course
+    if floats(cells, begun.x, begun.v, work):
+        out.status[i] = FLOATING
+        return begun
+    course = observe(cells, begun, limits.n_exponent, work, out, i)
+    if course.status != OK:
+        return course
+    if lasts(work.known.lasting, out.chaos[i]):
+        out.status[i] = APERIODIC
+        return course
+    n_watch = limits.n_watch if cells.damping_ratio > 0.0 else 0
+    left = max(0, min(n_watch, limits.most - int(work.way[0])))
+    course = follow(cells, course.x, course.v, left, limits.max_period, work)
+    if not undecided(course):
+        return course
+    if left < n_watch:
+        out.status[i] = EXHAUSTED
+        return course
+    late = approached(cells, course.x, course.v, limits.max_period, work)
+    if not undecided(late):
+        return late
+    if n_watch > limits.n_exponent and not resolved(out.exponents[i]):
+        _status, _x, _v, largest, error = exponents(cells, course.x, course.v, 1, n_watch, EXPONENT_BLOCKS, work.reach)
+        fill_exponents(cells, largest, error, out.exponents[i])
+    out.status[i] = APERIODIC if resolved(out.exponents[i]) else UNSETTLED
+    return course
 
 
 @kernel
@@ -281,23 +377,114 @@ def settle(
     cells: Cells, x: float, v: float, n_transient: int, limits: Limits, work: Scratch, out: Settled, i: int
 ) -> None:
     """Follow one motion until it is settled and fill row `i` of `out`."""
-    course = follow(cells, x, v, min(n_transient, limits.most), limits.max_period, out.way[i], work)
-    undecided = course.status == OK and course.owner < 0 and course.orbit.period == 0
-    exhausted = undecided and n_transient + limits.n_exponent > limits.most
-    if undecided and not exhausted:
-        course = judge(cells, course, limits, work, out, i)
-    out.attractor[i], out.final[i, 0], out.final[i, 1] = course.owner, course.x, course.v
-    if course.owner >= 0:
-        copy_row(work.known.settled, course.owner, out, i)
-    elif exhausted:
+    work.way[0], work.way[1], work.way[2], work.way[3] = 0.0, 0.0, x, x
+    course = follow(cells, x, v, min(n_transient, limits.most), limits.max_period, work)
+    out.way[i] = work.way
+    if undecided(course):
         out.status[i] = EXHAUSTED
+        if n_transient + limits.n_exponent <= limits.most:
+            course = judge(cells, course, limits, work, out, i)
+    out.lasted[i] = int(work.way[0])
+    out.final[i, 0], out.final[i, 1] = limit_of(course, work)
+    if captured(course):
+        observed = out.lasted[i] == n_transient + observed_periods(limits.n_exponent)
+        if 0 <= course.held < len(work.known.neighbourhoods):
+            out.attractor[i] = int(work.neighbourhoods[course.held, OWNER])
+            copy_row(work.known.settled, out.attractor[i], out, i)
+        else:
+            describe_orbit(cells, course.orbit, work, out, i)
+        first, n = neighbourhoods_of(cells, course, work)
+        if course.orbit.period > 0 or observed:
+            course = arrive(cells, x, v, first, n, work)
+        out.way[i] = work.way
+        out.lasted[i] = int(work.way[0])
+        see_out(cells, course, first, n, work, out, i)
     elif course.status != OK:
         out.status[i] = GONE if course.status == ESCAPED else CAPPED
         out.points[i], out.extremes[i] = np.nan, np.nan
-    elif course.orbit.period > 0:
-        describe_orbit(cells, course.orbit, work, out, i)
-    else:
+    elif out.status[i] == FLOATING:
+        describe_floating(cells, course, work, out, i)
+    elif np.isfinite(out.extremes[i, 0]):
         describe_span(cells, out.points[i, 0, 0], out.points[i, 0, 1], limits.n_exponent, work, out, i)
+
+
+@kernel
+def limit_of(course: Course, work: Scratch) -> tuple[float, float]:
+    """The section point of its limit that a captured motion is near; else the last one it reached."""
+    if course.held >= 0:
+        return work.neighbourhoods[course.held, X], work.neighbourhoods[course.held, V]
+    if course.orbit.period > 0:
+        return course.orbit.x, course.orbit.v
+    return course.x, course.v
+
+
+@allocating_kernel
+def neighbourhoods_of(cells: Cells, course: Course, work: Scratch) -> tuple[int, int]:
+    """The first of the neighbourhoods, among the scratch, of the orbit that captured a motion, and how many it has."""
+    first, orbit, rows = len(work.known.neighbourhoods), course.orbit, work.neighbourhoods
+    if orbit.period == 0:
+        first = course.held
+        while first > 0 and rows[first - 1, OWNER] == rows[course.held, OWNER]:
+            first -= 1
+        return first, work.known.settled.period[int(rows[first, OWNER])]
+    if orbit.n_neighbourhoods > 0:
+        return first, orbit.period
+    xs, vs = smallest_point(cells, orbit.x, orbit.v, orbit.period, work.series)
+    return first, orbit.period if surround(cells, xs, vs, orbit.period, -1.0, rows[first:], work.series) else 0
+
+
+@kernel
+def arrive(cells: Cells, x: float, v: float, first: int, n: int, work: Scratch) -> Course:
+    """Walk once more from the start until the first of `n` neighbourhoods holds the motion. Fills the work's way.
+
+    The orbit was found when the motion had come near, or while nobody asked where it was; had it been known and asked
+    for, it would have captured the motion before.
+    """
+    rows, most, done = work.neighbourhoods[first : first + n], int(work.way[0]), 0
+    work.way[0], work.way[1], work.way[2], work.way[3] = 0.0, 0.0, x, x
+    begin_reach(work.reach, x)
+    held = inside(rows, n, x, v)
+    while held < 0 and done < most:
+        _status, x, v = inlined_walk(cells, x, v, 1, work.series, None, work.reach)
+        done += 1
+        held = inside(rows, n, x, v)
+    extend(work.way, done, work.reach)
+    return Course(OK, x, v, first + held if held >= 0 else -1, Orbit(0, x, v, 0))
+
+
+@kernel
+def see_out(cells: Cells, course: Course, first: int, n: int, work: Scratch, out: Settled, i: int) -> None:
+    """Follow a captured motion on for as long as the rest of its way can change the range of row `i` of `out`.
+
+    The `n` neighbourhoods of its cycle follow on one another, and the motion never leaves them; see `capture` for the
+    bound.
+    """
+    rows, k, way = work.neighbourhoods, course.held, out.way[i]
+    if k < 0:
+        return
+    x, v = course.x, course.v
+    begin_reach(work.reach, x)
+    for _ in range(SEEN_OUT):
+        margin = np.sqrt(square(rows[k], x, v)) * rows[k, SPREAD]
+        if margin <= SEEN or nothing_new(way, out.extremes[i], margin):
+            break
+        _status, x, v = walk(cells, x, v, 1, work.series, None, work.reach)
+        way[2], way[3] = min(way[2], work.reach[LOWEST]), max(way[3], work.reach[HIGHEST])
+        k = first + (k - first + 1) % n
+
+
+@kernel
+def nothing_new(way: Array, extremes: Array, margin: float) -> bool:
+    """Whether a motion within `margin` of a cycle's range cannot add to what the way and the cycle show together.
+
+    That is the largest displacement, and which boundaries of the backlash X passes.
+    """
+    low, high = extremes[0] - margin, extremes[1] + margin
+    lowest, highest = min(way[2], extremes[0]), max(way[3], extremes[1])
+    if max(abs(low), abs(high)) > max(abs(lowest), abs(highest)):
+        return False
+    passes = low < -1.0 <= lowest or low < 1.0 <= lowest
+    return not (passes or highest <= 1.0 < high or highest <= -1.0 < high)
 
 
 @allocating_kernel
@@ -312,6 +499,16 @@ def describe_orbit(cells: Cells, orbit: Orbit, work: Scratch, out: Settled, i: i
     walk(cells, x, v, period, work.series, None, work.reach)
     out.extremes[i, 0], out.extremes[i, 1] = work.reach[LOWEST], work.reach[HIGHEST]
     describe_span(cells, x, v, period, work, out, i)
+
+
+@kernel
+def describe_floating(cells: Cells, course: Course, work: Scratch, out: Settled, i: int) -> None:
+    """Fill row `i` of `out` with what a motion is that floats: neutral to a shift of X, damped otherwise."""
+    fill_exponents(cells, 0.0, 0.0, out.exponents[i])
+    begin_reach(work.reach, course.x)
+    walk(cells, course.x, course.v, 1, work.series, None, work.reach)
+    out.extremes[i, 0], out.extremes[i, 1] = work.reach[LOWEST], work.reach[HIGHEST]
+    describe_span(cells, course.x, course.v, 1, work, out, i)
 
 
 @kernel
@@ -363,7 +560,7 @@ def settle_lanes(first: int, last: int, lanes: Lanes, chain: int, limits: Limits
             built = lanes.own[i]
             cells = build_cells(coefficients_of(lanes, built))
         x, v = lanes.starts[i, 0], lanes.starts[i, 1]
-        if i % chain != 0 and out.status[i - 1] < GONE:
+        if i % chain != 0 and not (GONE <= out.status[i - 1] <= NOT_RUN):
             x, v = out.final[i - 1, 0], out.final[i - 1, 1]
         settle(cells, x, v, lanes.n_transient[i], limits, work, out, i)
 

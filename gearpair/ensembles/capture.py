@@ -1,81 +1,107 @@
 """Many starts of one oscillator: attractors found on a few of them capture the others."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._flow.capture import COLUMNS
-from gearpair._flow.settle import APERIODIC, PERIODIC, UNSETTLED, Known, Settled, surround_rows
+from gearpair._flow.settle import APERIODIC, FLOATING, PERIODIC, UNSETTLED, Known, Settled, surround_rows
+from gearpair.ensembles.chaos import ChaoticSets, chained, chaotic_sets, judged_status, observed_in, scouted, sets_of
 from gearpair.ensembles.datasets import settled_columns
+from gearpair.motion.impacts import impact_codes
 from gearpair.motion.same_orbit import SAME_ORBIT
 from gearpair.motion.settling import SettleSettings, nothing_known, settle_batch
 from gearpair.oscillator import Oscillator
 
-SCOUTS = 256  # starts that are settled first, at most an eighth of all
-# Chaotic motions no farther apart than this, in a chain, are one set.
-SAME_SET = {"x_min": 0.25, "x_max": 0.25, "exponent": 0.1}
+SCOUTS, STARTS_PER_SCOUT = 256, 8  # starts that are settled first, at most an eighth of all
+# Mesh periods that a chaotic set is watched for without an escape, by all scouts on it together, before other motions
+# on it are believed to stay: at 95 % its mean life is then at least a third of them.
+POOL = 1_000_000
 
 
 def scouts(n: int) -> NDArray[np.int64]:
     """Which of `n` starts to look for attractors from: steps of the golden section, even over a grid of any shape."""
-    m = min(SCOUTS, n // 8)
+    m = min(SCOUTS, n // STARTS_PER_SCOUT)
     return np.unique((np.arange(1, m + 1) * 0.6180339887498949 % 1.0 * n).astype(np.int64))
 
 
 def known_attractors(osc: Oscillator, starts: NDArray[np.float64], settings: SettleSettings) -> Known:
-    """The periodic attractors that starts (n, 2) reach, with the neighbourhoods that capture other motions.
+    """What the scouts (n, 2) show: periodic attractors with the neighbourhoods that capture others, and lasting chaos.
 
     It depends on the starts and the settings alone, not on threads.
     """
     if len(starts) == 0:
         return nothing_known(settings)
-    return known_among(osc, settle_batch([osc], starts, settings))
+    out = settle_batch([osc], starts, settings)
+    return known_among(osc, out)._replace(lasting=lasting_chaos(osc, out, settings))
+
+
+def lasting_chaos(osc: Oscillator, out: Settled, settings: SettleSettings) -> NDArray[np.float64]:
+    """What scouts on chaotic sets that lasted for `POOL` mesh periods were, with the periods each was watched; (k, 4).
+
+    The scouts of a set share the watch, which goes on where it is not long enough yet; not of sets with so few of them
+    that watching every motion on it costs no more.
+    """
+    columns, discard = settled_columns(out), settings.before_watch(osc)
+    sets = chaotic_sets([observed_in(columns, discard)])
+    labels = sets_of(sets, columns, discard)
+    found = [np.empty((0, 4))]
+    for k in np.flatnonzero(~sets.transient).tolist():
+        rows = np.flatnonzero(labels == k)
+        watched = out.lasted[rows] - discard
+        more = max(0, -(-(POOL - int(watched.sum())) // len(rows)))
+        if more >= STARTS_PER_SCOUT * settings.n_watch:
+            continue
+        on = settle_batch([osc], out.final[rows], replace(settings, n_transient=more, n_watch=0, n_exponent=1))
+        if np.all(np.isin(on.status, (APERIODIC, UNSETTLED))):
+            found.append(np.column_stack([out.chaos[rows], watched + more]))
+    return np.concatenate(found)
 
 
 def known_among(osc: Oscillator, out: Settled) -> Known:
     """The periodic attractors among settled motions, in the order in which they turn up."""
-    found, _ = found_in(settled_columns(out))
+    found, _ = found_in(settled_columns(out) | {"chaotic_set": np.full(len(out.status), -1)})
     rows = np.sort(found.first[found.columns["status"] == PERIODIC])
     settled = Settled._make(column[rows] for column in out)
     settled.way[:] = np.nan
     neighbourhoods = np.empty((int(settled.period.sum()), COLUMNS))
     filled = surround_rows(osc.cells, settled.points[:, 0].copy(), settled.period, neighbourhoods)
-    return Known(settled, neighbourhoods[:filled].copy())
+    return Known(settled, neighbourhoods[:filled].copy(), np.empty((0, 4)))
 
 
 class Found(NamedTuple):
     """The distinct attractors of some motions, in no order."""
 
-    marks: NDArray[np.int64]  # (m, 5): see `marks_of`
+    marks: NDArray[np.int64]  # (m, 4): see `marks_of`
     first: NDArray[np.int64]  # (m,) the first motion that shows it
     counts: NDArray[np.int64]  # (m,) motions
     columns: dict[str, NDArray[Any]]  # what that first motion is, (m,) each
 
 
 def marks_of(columns: Mapping[str, NDArray[Any]]) -> NDArray[np.int64]:
-    """Whole numbers (n, 5) for each motion: those of one attractor are equal, or chains of them differ by 1 at most.
+    """Whole numbers (n, 4) for each motion: those of one attractor are equal, or chains of them differ by 1 at most.
 
-    Periodic orbits by period and section point; chaotic sets by the extremes of X and the exponent, both measured over
-    a finite span; status and period in steps of ten, so that none is next to another.
+    Periodic orbits by period and section point, chaotic sets by their number; status and period in steps of ten, so
+    that none is next to another.
     """
     status, period = columns["status"].astype(np.int64), columns["period"].astype(np.int64)
-    marks = np.zeros((len(status), 5), np.int64)
+    marks = np.zeros((len(status), 4), np.int64)
     marks[:, 0], marks[:, 1] = 10 * status, 10 * period
     orbit, chaos = status == PERIODIC, status == APERIODIC
     for k, name in enumerate(("section_x", "section_v")):
         marks[orbit, 2 + k] = np.round(columns[name][orbit] / SAME_ORBIT)
-    for k, (name, width) in enumerate(SAME_SET.items()):
-        marks[chaos, 2 + k] = np.floor(columns[name][chaos] / width)
+    marks[chaos, 2] = 10 * columns["chaotic_set"][chaos]
     return marks
 
 
 def found_in(columns: Mapping[str, NDArray[Any]], offset: int = 0) -> tuple[Found, NDArray[np.int64]]:
     """The distinct attractors among motions that are counted from `offset`, and for each motion its place, or -1."""
-    judged = np.isin(columns["status"], (PERIODIC, APERIODIC, UNSETTLED))
+    judged = np.isin(columns["status"], (PERIODIC, APERIODIC, UNSETTLED, FLOATING))
     marks = marks_of(columns)[judged]
-    # One number instead of five sorts much faster.
+    # One number instead of four sorts much faster.
     mixed = np.zeros(len(marks), np.uint64)
     for column in marks.T:
         mixed = mixed * np.uint64(0x9E3779B97F4A7C15) + column.astype(np.uint64)
@@ -86,29 +112,53 @@ def found_in(columns: Mapping[str, NDArray[Any]], offset: int = 0) -> tuple[Foun
     return Found(marks[first], rows + offset, counts, {name: c[rows] for name, c in columns.items()}), places
 
 
-def numbered(columns: Mapping[str, NDArray[Any]]) -> tuple[NDArray[np.int64], dict[str, NDArray[Any]]]:
-    """The number of each motion's attractor, or -1, and what each attractor is: `number_attractors` of one part."""
+class Numbered(NamedTuple):
+    """What motions from many starts lead to."""
+
+    columns: dict[str, NDArray[Any]]  # of each motion, with ``attractor`` and ``chaotic_set``, -1 where there is none
+    table: dict[str, NDArray[Any]]  # of each attractor
+    sets: ChaoticSets
+    leads_to: NDArray[np.int64]  # (sets, attractors) how many motions that left a set went where
+
+
+def numbered(columns: dict[str, NDArray[Any]], discard: int, lasting: NDArray[np.float64]) -> Numbered:
+    """Numbers for the attractors and chaotic sets of motions: what stores do in parts."""
+    sets = chaotic_sets([observed_in(columns, discard), scouted(lasting)])
+    columns = with_sets(sets, columns, discard)
     found, places = found_in(columns)
-    (numbers,), table = number_attractors([found])
-    return numbers[places], table
+    (numbers,), table = number_attractors([found], sets)
+    columns = columns | {"attractor": numbers[places]}
+    return Numbered(columns, table, sets, leading(columns, sets, len(table["counts"])))
 
 
-def number_attractors(found: Sequence[Found]) -> tuple[list[NDArray[np.int64]], dict[str, NDArray[Any]]]:
+def with_sets(sets: ChaoticSets, columns: dict[str, NDArray[Any]], discard: int) -> dict[str, NDArray[Any]]:
+    """The columns with the number of each motion's chaotic set, and the status that follows from what others did."""
+    labels = sets_of(sets, columns, discard)
+    return columns | {"status": judged_status(sets, labels, columns), "chaotic_set": labels}
+
+
+def leading(columns: Mapping[str, NDArray[Any]], sets: ChaoticSets, n: int) -> NDArray[np.int64]:
+    """How many motions have left each set for each of `n` attractors."""
+    left = (columns["chaotic_set"] >= 0) & (columns["status"] == PERIODIC)
+    counts = np.zeros((len(sets.observed.motions), n), np.int64)
+    np.add.at(counts, (columns["chaotic_set"][left], columns["attractor"][left]), 1)
+    return counts
+
+
+def number_attractors(
+    found: Sequence[Found], sets: ChaoticSets
+) -> tuple[list[NDArray[np.int64]], dict[str, NDArray[Any]]]:
     """One numbering for the attractors of several parts: the number of each part's places, and what each attractor is.
 
     Periodic attractors come first, by period and X; then chaotic sets, by their smallest X; then all unsettled motions
-    as one. The table has their columns, the ``first`` motion of each and ``counts``.
+    as one, and all that float. The table has their columns, the ``first`` motion of each and ``counts``; a chaotic set
+    has the range and the mean exponent of all its motions.
     """
-    from scipy.sparse.csgraph import connected_components  # here, so that importing gearpair stays quick
-    from scipy.spatial import cKDTree
-
     marks, first = np.concatenate([f.marks for f in found]), np.concatenate([f.first for f in found])
     columns = {name: np.concatenate([f.columns[name] for f in found]) for name in found[0].columns}
-    n, sets = 0, np.zeros(0, int)
-    if len(marks):
-        tree = cKDTree(marks)
-        n, sets = connected_components(tree.sparse_distance_matrix(tree, 1.0, p=np.inf).tocsr())
-    shown = np.array([np.flatnonzero(sets == k)[np.argmin(first[sets == k])] for k in range(n)], dtype=int)
+    groups = chained(marks)
+    n = int(groups.max(initial=-1)) + 1
+    shown = np.array([np.flatnonzero(groups == k)[np.argmin(first[groups == k])] for k in range(n)], dtype=int)
     orbit = columns["status"][shown] == PERIODIC
     keys = [
         np.where(orbit, columns[f"section_{a}"][shown], columns[b][shown]) for a, b in (("v", "x_max"), ("x", "x_min"))
@@ -119,7 +169,12 @@ def number_attractors(found: Sequence[Found]) -> tuple[list[NDArray[np.int64]], 
     counts = np.concatenate([f.counts for f in found])
     table = {name: column[shown[order]] for name, column in columns.items()}
     table["first"] = first[shown[order]]
-    table["counts"] = np.bincount(rank[sets], weights=counts, minlength=n)
+    table["counts"] = np.bincount(rank[groups], weights=counts, minlength=n)
+    chaos = table["status"] == APERIODIC
+    own = table["chaotic_set"][chaos]
+    for name, values in (("x_min", sets.observed.x_min), ("x_max", sets.observed.x_max), ("exponent", sets.exponents)):
+        table[name][chaos] = values[own]
+    table["impact_state"] = impact_codes(table["x_min"], table["x_max"])
     ends = np.cumsum([len(f.first) for f in found])[:-1]
     # The last entry of each part serves the place -1.
-    return [np.append(numbers, -1) for numbers in np.split(rank[sets], ends)], table
+    return [np.append(numbers, -1) for numbers in np.split(rank[groups], ends)], table

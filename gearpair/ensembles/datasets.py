@@ -24,6 +24,8 @@ WORDS: dict[str, tuple[str, ...]] = {
     "impact_state": ("", *map(str, IMPACT_STATES)),
     "worst_impact_state": ("", *map(str, IMPACT_STATES)),
 }
+# What is told of each start of a plane alone.
+OF_PLANES = ("section_x", "section_v", "chaos_x_min", "chaos_x_max", "chaos_exponent")
 
 
 def oscillators_along(
@@ -65,6 +67,10 @@ def settled_columns(out: Settled) -> dict[str, NDArray[Any]]:
         "exponent_error": out.exponents[:, 2],
         "section_x": np.where(out.status == PERIODIC, out.points[:, 0, 0], np.nan),
         "section_v": np.where(out.status == PERIODIC, out.points[:, 0, 1], np.nan),
+        "lasted": out.lasted,
+        "chaos_x_min": out.chaos[:, 0],
+        "chaos_x_max": out.chaos[:, 1],
+        "chaos_exponent": out.chaos[:, 2],
     }
 
 
@@ -110,5 +116,4 @@ def section_variables(parameter: str, points: NDArray[np.float64]) -> dict[str, 
 def settled_variables(out: Settled, dims: tuple[str, ...], shape: tuple[int, ...]) -> dict[str, Any]:
     """The per-motion results as xarray variables over `dims`."""
     columns = settled_columns(out)
-    del columns["section_x"], columns["section_v"]
-    return variables_of(columns, dims, shape)
+    return variables_of({name: columns[name] for name in columns if name not in OF_PLANES}, dims, shape)

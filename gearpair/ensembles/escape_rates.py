@@ -19,6 +19,7 @@ class Persistence(Outcome):
         "direct",
         "every motion had settled before `discard` ended: no transient longer than that was there to watch",
     )
+    UNWATCHED = "unwatched", "no motion was watched, by an n_watch of 0 or without damping: how long it lasts is open"
 
 
 @dataclass(frozen=True)
@@ -123,9 +124,14 @@ def escape_rate(times: ArrayLike, watched: ArrayLike, *, discard: int = 0, confi
     confidence = check_number("confidence", confidence, above=0.0, below=1.0)
     counted = ends > discard
     n, k = int((ends - discard)[counted].sum()), int(left[counted].sum())
+    return counted_rate(int(counted.sum()), n, k, confidence)
+
+
+def counted_rate(n_watched: int, n: int, k: int, confidence: float = 0.95) -> EscapeRate:
+    """The rate from `k` escapes of `n_watched` motions in `n` mesh periods watched; see `escape_rate`."""
     best = k / n if n else math.nan
     low, high = _interval(k, n, confidence)
-    return EscapeRate(int(counted.sum()), n, k, _rate(best), _rate(low), _rate(high), confidence)
+    return EscapeRate(n_watched, n, k, _rate(best), _rate(low), _rate(high), confidence)
 
 
 def _checked(times: ArrayLike, watched: ArrayLike) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:

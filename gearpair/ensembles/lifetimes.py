@@ -17,7 +17,7 @@ from gearpair._flow.watch import Watched, watch_starts
 from gearpair.ensembles.capture import known_among, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
 from gearpair.ensembles.escape_rates import EscapeRate, Persistence, escape_rate
-from gearpair.ensembles.planes import attractor_variables
+from gearpair.ensembles.planes import RATES, attractor_variables, with_numbers
 from gearpair.motion.settling import MANY, SettleSettings, nothing_known, settle_batch, transient_periods
 from gearpair.motion.trajectories import check_starts, raise_if_capped
 from gearpair.oscillator import Oscillator
@@ -31,10 +31,6 @@ AT_ONCE = 100_000
 # Mesh periods after which new attractors are first looked for, and how many times as many the next time.
 FIRST_LOOK, NEXT_LOOK = 2_000, 4
 ON_ITS_WAY, UNBOUNDED = -1, -2  # what stands for an attractor's number
-ESTIMATES = (
-    "n_watched", "watched_periods", "escapes", "escape_rate", "escape_rate_low", "escape_rate_high", "mean_life",
-    "mean_life_low", "mean_life_high",
-)  # fmt: skip
 
 
 def survival(
@@ -113,7 +109,8 @@ def survival(
     gone = (watched.owner >= 0) | (watched.status == ESCAPED)
     columns = {"start_x": starts[:, 0], "start_v": starts[:, 1]}
     columns["escape_time"] = np.where(gone, watched.periods, np.nan)
-    numbers, table = numbered(settled_columns(known.settled))
+    result = numbered(settled_columns(known.settled), 0, known.lasting)
+    numbers, table = result.columns["attractor"], result.table
     columns["attractor"] = np.where(watched.owner >= 0, np.append(numbers, ON_ITS_WAY)[watched.owner], ON_ITS_WAY)
     columns["attractor"][watched.status == ESCAPED] = UNBOUNDED
     columns["status"] = np.where(watched.owner >= 0, PERIODIC, GONE)
@@ -123,8 +120,7 @@ def survival(
     variables |= _survivor_variables(columns["escape_time"], discard, n_periods)
     variables |= _attractor_variables(table, columns, discard)
     variables |= estimate_variables(estimate, leaves_later=bool(np.isin(later.status, (PERIODIC, GONE)).any()))
-    result = dataset(osc, variables, {}, n_periods=n_periods, discard=discard, confidence=confidence)
-    return result.assign_coords(attractor_number=np.arange(len(table["counts"])))
+    return with_numbers(dataset(osc, variables, {}, n_periods=n_periods, discard=discard, confidence=confidence))
 
 
 def survival_along(
@@ -162,7 +158,7 @@ def survival_along(
     oscillators, checked = oscillators_along(osc, parameter, values)
     how: dict[str, Any] = {"n_periods": n_periods, "discard": discard, "confidence": confidence, "progress": progress}
     each = [survival(one, x, v, **how) for one in oscillators]
-    columns = {name: np.array([one[name].item() for one in each]) for name in (*ESTIMATES, "persistence")}
+    columns = {name: np.array([one[name].item() for one in each]) for name in (*RATES, "persistence")}
     columns["survivors"] = np.array([one.survivors.values[-1] for one in each])
     columns["discarded"] = np.array([one.discard for one in each])
     variables = variables_of(columns, (parameter,), checked.shape)
@@ -251,13 +247,13 @@ def _attractor_variables(table: dict[str, Any], columns: dict[str, Any], discard
 
 def estimate_of(result: xr.Dataset) -> EscapeRate:
     """The estimate that a `survival` holds."""
-    counted: dict[str, Any] = {name: result[name].item() for name in ESTIMATES if not name.startswith("mean_life")}
+    counted: dict[str, Any] = {name: result[name].item() for name in RATES if not name.startswith("mean_life")}
     return EscapeRate(**counted, confidence=result.attrs["confidence"])
 
 
 def estimate_variables(estimate: EscapeRate, *, leaves_later: bool = False) -> dict[str, Any]:
     """An escape rate as variables without a dimension; where motions leave only later, the set is a transient too."""
     persistence = Persistence.TRANSIENT if leaves_later else estimate.persistence
-    variables: dict[str, Any] = {name: ((), getattr(estimate, name), attributes(name)) for name in ESTIMATES}
+    variables: dict[str, Any] = {name: ((), getattr(estimate, name), attributes(name)) for name in RATES}
     facts = attributes("persistence") | {"remedy": persistence.remedy}
     return variables | {"persistence": ((), str(persistence), facts)}

@@ -12,8 +12,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._flow.settle import Known
-from gearpair.ensembles.capture import Found, found_in, known_attractors, number_attractors, numbered, scouts
-from gearpair.ensembles.datasets import dataset, settled_columns, variables_of, way_columns
+from gearpair.ensembles.capture import (
+    Found,
+    Numbered,
+    found_in,
+    known_attractors,
+    leading,
+    number_attractors,
+    numbered,
+    scouts,
+    with_sets,
+)
+from gearpair.ensembles.chaos import chaotic_sets, observed_in, scouted
+from gearpair.ensembles.datasets import OF_PLANES, dataset, settled_columns, variables_of, way_columns
+from gearpair.ensembles.escape_rates import EscapeRate, Persistence
 from gearpair.ensembles.stores import add_column, add_table, by_store, read_blocks, stored
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import Motion, motions_from
@@ -28,6 +40,10 @@ if TYPE_CHECKING:
     from zarr import Group
 
 ATTRACTOR_COLUMNS = ("status", "period", "impact_state", "x_min", "x_max", "exponent")
+RATES = (
+    "n_watched", "watched_periods", "escapes", "escape_rate", "escape_rate_low", "escape_rate_high", "mean_life",
+    "mean_life_low", "mean_life_high",
+)  # fmt: skip
 
 
 def basins(
@@ -61,14 +77,23 @@ def basins(
     Returns
     -------
     xarray.Dataset
-        Over ``(v, x)``: ``attractor`` (its number, -1 where the motion did not stay bounded or was not judged),
-        ``status``, ``period``, ``impact_state``, ``x_min``, ``x_max``, ``exponent``, ``exponent_error``; of the way
-        there ``worst_impact_state`` and ``largest_displacement`` (the attractor included), ``settling_time`` and
-        ``impacts_before`` (nan unless periodic). Over ``attractor_number``: ``attractor_status``,
-        ``attractor_period``, ``attractor_impact_state``, ``attractor_x_min``, ``attractor_x_max``,
-        ``attractor_exponent``, ``attractor_x``, ``attractor_v`` (its section point of smallest X; nan unless periodic)
-        and ``attractor_share`` of the starts. Periodic attractors come first, by period and X; then chaotic sets, told
-        apart by their extremes and exponents; then all unsettled motions as one.
+        Over ``(v, x)``: ``attractor`` (its number; -1 where the motion did not stay bounded, is a transient still, or
+        was not judged), ``status``, ``period``, ``impact_state``, ``x_min``, ``x_max``, ``exponent``,
+        ``exponent_error``, ``lasted`` (mesh periods that it was followed for; of a periodic motion, until it had
+        settled); of the way ``worst_impact_state`` and ``largest_displacement`` (the attractor included),
+        ``settling_time`` and ``impacts_before`` (nan unless periodic); ``chaotic_set`` (the number of the one that it
+        was on, or -1), with ``chaos_x_min``, ``chaos_x_max`` and ``chaos_exponent``, which it then showed.
+
+        Over ``attractor_number``: ``attractor_status``, ``attractor_period``, ``attractor_impact_state``,
+        ``attractor_x_min``, ``attractor_x_max``, ``attractor_exponent``, ``attractor_x``, ``attractor_v`` (its section
+        point of smallest X; nan unless periodic), ``attractor_chaotic_set`` and ``attractor_share`` of the starts.
+        Periodic attractors come first, by period and X; then chaotic sets that no motion has left; then all unsettled
+        motions as one.
+
+        Over ``set_number``, by smallest X, all chaotic sets that were seen: ``set_persistence``, ``set_x_min``,
+        ``set_x_max``, ``set_exponent`` (the mean), ``set_still`` (motions that are still there), what an `EscapeRate`
+        holds (``set_escapes``, ``set_watched_periods``, ``set_mean_life`` with its ends, ...), and
+        ``set_leads_to`` over ``(set_number, attractor_number)``, the shares of where the others went.
 
     Raises
     ------
@@ -85,8 +110,12 @@ def basins(
     -----
     Attractors are looked for from some of the starts first. Around each stable cycle a neighbourhood is certified that
     no motion leaves, and every start is followed until one of them captures it: that is its settling time, rounded
-    up to a mesh period. What is not captured settles as in `steady_state`: a chaotic transient that outlasts
-    `n_transient` is called aperiodic, which with weak damping happens to some starts in a hundred.
+    up to a mesh period. What is not captured settles as in `steady_state`, and is watched for `n_watch` mesh periods.
+
+    The motions of a chaotic set are one experiment: one that leaves shows that the set is a transient. Those still on
+    it have the status ``"transient"`` and no attractor. Where the motions looked at first have stayed for a million
+    mesh periods together, the others are not watched, and believed to stay: at 95 % the set's mean life is then more
+    than 333 000.
 
     Examples
     --------
@@ -103,10 +132,11 @@ def basins(
     if by_store(store, client):
         return stored(plane, store, partial(_number, plane), client=client, progress=progress)
     columns = plane.columns(0, len(vs), progress=progress)
-    labels, table = numbered(columns)
-    variables = variables_of(columns | {"attractor": labels}, ("v", "x"), (len(vs), len(xs)))
-    variables |= attractor_variables(table, len(labels))
-    return dataset(osc, variables, plane.axes).assign_coords(attractor_number=np.arange(len(table["counts"])))
+    result = numbered(columns, plane.settings.before_watch(osc), plane.known.lasting)
+    variables = variables_of(result.columns, ("v", "x"), (len(vs), len(xs))) | numbered_variables(
+        result, len(columns["status"])
+    )
+    return with_numbers(dataset(osc, variables, plane.axes))
 
 
 @dataclass(frozen=True)
@@ -143,19 +173,56 @@ class Plane:
 
 
 def _number(plane: Plane, group: Group) -> None:
-    """One numbering for the attractors of all blocks of a store, and what they are."""
-    names = ["status", "period", "section_x", "section_v", "x_min", "x_max", "exponent", "impact_state"]
-    offsets, n_x = {}, len(plane.axes["x"])
+    """One numbering for the attractors and chaotic sets of all blocks of a store, and what they are."""
+    names = [*ATTRACTOR_COLUMNS, *OF_PLANES, "lasted"]
+    discard, n_x, n = plane.settings.before_watch(plane.osc), len(plane.axes["x"]), len(plane.axes["v"])
+    observed = [observed_in(columns, discard) for _first, _last, columns in read_blocks(plane, group, names)]
+    sets = chaotic_sets([*observed, scouted(plane.known.lasting)])
     found: list[Found] = []
-    for first, _last, columns in read_blocks(plane, group, names):
-        offsets[first] = len(found)
-        found.append(found_in(columns, first * n_x)[0])
-    numbers, table = number_attractors(found)
-    labels = add_column(plane, group, "attractor", np.int64)
     for first, last, columns in read_blocks(plane, group, names):
-        places = found_in(columns, first * n_x)[1]
-        labels[first:last] = numbers[offsets[first]][places].reshape(last - first, n_x)
-    add_table(group, attractor_variables(table, len(plane.axes["v"]) * n_x, coded=True))
+        columns = with_sets(sets, columns, discard)
+        group["status"][first:last] = columns["status"].reshape(last - first, n_x)
+        found.append(found_in(columns, first * n_x)[0])
+    numbers, table = number_attractors(found, sets)
+    leads_to = np.zeros((len(sets.observed.motions), len(table["counts"])), np.int64)
+    arrays = {name: add_column(plane, group, name, np.int64) for name in ("chaotic_set", "attractor")}
+    for part, (first, last, columns) in zip(numbers, read_blocks(plane, group, names), strict=True):
+        columns = with_sets(sets, columns, discard)
+        columns["attractor"] = part[found_in(columns, first * n_x)[1]]
+        leads_to += leading(columns, sets, len(table["counts"]))
+        for name, array in arrays.items():
+            array[first:last] = columns[name].reshape(last - first, n_x)
+    add_table(group, numbered_variables(Numbered({}, table, sets, leads_to), n * n_x, coded=True))
+
+
+def numbered_variables(result: Numbered, n: int, *, coded: bool = False) -> dict[str, Any]:
+    """What the attractors and the chaotic sets of `n` starts are."""
+    observed, rates = result.sets.observed, result.sets.rates
+    columns: dict[str, NDArray[Any]] = {
+        "x_min": observed.x_min,
+        "x_max": observed.x_max,
+        "exponent": result.sets.exponents,
+    }
+    columns |= {"still": observed.motions - observed.escapes}
+    columns |= {name: np.array([getattr(rate, name) for rate in rates], float) for name in RATES}
+    columns |= {"persistence": np.array([_persistence(rate) for rate in rates], "U9")}
+    variables = attractor_variables(result.table, n, coded=coded)
+    variables |= variables_of(
+        {f"set_{name}": column for name, column in columns.items()}, ("set_number",), (len(rates),)
+    )
+    shares = result.leads_to / np.maximum(result.leads_to.sum(axis=1, keepdims=True), 1)
+    return variables | variables_of({"set_leads_to": shares}, ("set_number", "attractor_number"), shares.shape)
+
+
+def _persistence(rate: EscapeRate) -> str:
+    """Whether a chaotic set lasts, in a word."""
+    return str(rate.persistence if rate.n_watched else Persistence.UNWATCHED)
+
+
+def with_numbers(result: xr.Dataset) -> xr.Dataset:
+    """A dataset with the numbers of its attractors and chaotic sets as coordinates."""
+    names = [name for name in ("attractor_number", "set_number") if name in result.sizes]
+    return result.assign_coords({name: np.arange(result.sizes[name]) for name in names})
 
 
 def attractor_variables(
@@ -163,7 +230,7 @@ def attractor_variables(
 ) -> dict[str, Any]:
     """What each attractor is and its share of `n` starts, with the standard errors that random starts leave."""
     share = table["counts"] / n
-    columns = {f"attractor_{name}": table[name] for name in ATTRACTOR_COLUMNS}
+    columns = {f"attractor_{name}": table[name] for name in (*ATTRACTOR_COLUMNS, "chaotic_set")}
     columns |= {"attractor_x": table["section_x"], "attractor_v": table["section_v"], "attractor_share": share}
     if errors:
         columns["attractor_share_error"] = np.sqrt(share * (1.0 - share) / n)

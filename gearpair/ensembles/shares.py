@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair._checks import check_count
 from gearpair.ensembles.capture import known_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns
-from gearpair.ensembles.planes import attractor_variables, basins
+from gearpair.ensembles.planes import attractor_variables, basins, with_numbers
 from gearpair.motion.names import motions_of
 from gearpair.motion.settling import MANY, BatchOptions, SettleOptions, settle_batch
 from gearpair.oscillator import Oscillator
@@ -62,10 +62,10 @@ def basin_stability(
     n = check_count("n", n)
     starts = random_starts(n, x_reach, v_reach, seed)
     settings = MANY.having(settling)
-    out = settle_batch([osc], starts, settings, known=known_attractors(osc, starts[scouts(n)], settings))
-    _, table = numbered(settled_columns(out))
-    result = dataset(osc, attractor_variables(table, n, errors=True), {}, n=n)
-    return result.assign_coords(attractor_number=np.arange(len(table["counts"])))
+    known = known_attractors(osc, starts[scouts(n)], settings)
+    out = settle_batch([osc], starts, settings, known=known)
+    table = numbered(settled_columns(out), settings.before_watch(osc), known.lasting).table
+    return with_numbers(dataset(osc, attractor_variables(table, n, errors=True), {}, n=n))
 
 
 def random_starts(n: int, x_reach: tuple[float, float], v_reach: tuple[float, float], seed: int) -> NDArray[np.float64]:

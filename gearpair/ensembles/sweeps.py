@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair._checks import check_choice
 from gearpair.ensembles.capture import numbered
 from gearpair.ensembles.datasets import (
+    OF_PLANES,
     dataset,
     oscillators_along,
     section_variables,
@@ -193,7 +194,7 @@ class Grid:
         oscillators = [self.osc.replace(**dict(zip(part, point, strict=True))) for point in points]
         starts, share = np.broadcast_to(self.start, (len(points), 2)), self._share
         out = settle_batch(oscillators, starts, self.settings, share=share, cores=cores, progress=progress)
-        columns = settled_columns(out)
+        columns = {name: column for name, column in settled_columns(out).items() if name not in OF_PLANES}
         if self.settings.measures:
             columns |= measure_columns(out.measures, np.array([o.mean_force for o in oscillators]))
         if len(self.others):
@@ -210,9 +211,12 @@ class Grid:
         """How many attractors the other starts reach, for each oscillator."""
         n = len(self.others)
         out = settle_batch(oscillators, np.tile(self.others, (len(oscillators), 1)), self.settings, cores=cores)
-        columns = settled_columns(out)
-        own = ({name: c[i : i + n] for name, c in columns.items()} for i in range(0, len(out.status), n))
-        return np.array([len(numbered(each)[1]["first"]) for each in own], dtype=np.int64)
+        columns, nothing = settled_columns(out), np.empty((0, 4))
+        counts = np.zeros(len(oscillators), np.int64)
+        for i, osc in enumerate(oscillators):
+            own = {name: column[i * n : (i + 1) * n] for name, column in columns.items()}
+            counts[i] = len(numbered(own, self.settings.before_watch(osc), nothing).table["first"])
+        return counts
 
     def _hysteresis(self, oscillators: list[Oscillator], shape: tuple[int, ...], cores: bool) -> NDArray[np.bool_]:
         """Whether the motions carried up and down along the axis differ."""

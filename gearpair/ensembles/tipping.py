@@ -79,8 +79,10 @@ def continue_attractors(
         before = list(points)
         here = np.concatenate([starts, *(points[number][np.newaxis] for number in before)])
         first = np.concatenate([scouts(n), np.arange(n, len(here))])
-        out = settle_batch([each], here, settings, known=known_attractors(each, here[first], settings))
-        labels, table = numbered(settled_columns(out))
+        known = known_attractors(each, here[first], settings)
+        out = settle_batch([each], here, settings, known=known)
+        result = numbered(settled_columns(out), settings.before_watch(each), known.lasting)
+        labels, table = result.columns["attractor"], result.table
         extremes = np.column_stack([table["x_min"], table["x_max"]])
         leads_to = dict(zip(before, labels[n:].tolist(), strict=True))
         followed = {

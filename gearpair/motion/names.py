@@ -25,6 +25,9 @@ IMPACT_NAMES: Mapping[str, str] = {
     ImpactState.DOUBLE: "double-sided",
     "": "not bounded",
 }
+# Of a motion that is not periodic, where that is not its status.
+WORDS: Mapping[str, str] = {Status.APERIODIC: "chaos", Status.TRANSIENT: "chaotic transient"}
+RANKS: Mapping[str, int] = {Status.PERIODIC: 0, Status.APERIODIC: 1, Status.TRANSIENT: 2}
 
 
 @total_ordering
@@ -58,7 +61,7 @@ class Motion:
         if self.status == Status.PERIODIC:
             word = f"period {self.period}"
         else:
-            word = "chaos" if self.status == Status.APERIODIC else str(self.status)
+            word = WORDS.get(self.status, str(self.status))
         return word if self.impact_state is None else f"{word}, {IMPACT_NAMES[self.impact_state]}"
 
     def __lt__(self, other: Motion) -> bool:
@@ -66,7 +69,7 @@ class Motion:
 
     @property
     def _place(self) -> tuple[int, int, str, str]:
-        rank = {Status.PERIODIC: 0, Status.APERIODIC: 1}.get(self.status, 2)  # type: ignore[call-overload]
+        rank = RANKS.get(self.status, len(RANKS))
         return rank, self.period or 0, str(self.status), str(self.impact_state or "")
 
     @property

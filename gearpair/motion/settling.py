@@ -15,7 +15,7 @@ from gearpair._checks import check_count, check_options
 from gearpair._cores import on_all_cores
 from gearpair._flow.capture import COLUMNS
 from gearpair._flow.measures import N_MEASURES
-from gearpair._flow.settle import NOT_RUN, Known, Lanes, Limits, Settled, settle_lanes
+from gearpair._flow.settle import NOT_RUN, Known, Lanes, Limits, Settled, observed_periods, settle_lanes
 from gearpair.motion.outcome import Outcome
 from gearpair.oscillator import Oscillator
 
@@ -28,11 +28,15 @@ class Status(Outcome):
     """What a motion became: a string, with a `remedy` that says what a user may do."""
 
     PERIODIC = "periodic", "the motion has settled on a stable periodic orbit"
-    APERIODIC = "aperiodic", "the largest Lyapunov exponent is positive, well outside its uncertainty: chaos"
+    APERIODIC = (
+        "aperiodic",
+        "chaos for as long as it was watched: the largest Lyapunov exponent is positive, well outside its uncertainty, "
+        "and the motion did not settle in `lasted` mesh periods; raise n_watch to look longer",
+    )
     UNSETTLED = (
         "unsettled",
-        "neither periodic nor of a resolved positive exponent: raise n_transient or max_period; "
-        "without damping there is nothing to settle on",
+        "neither periodic nor of a resolved positive exponent after `lasted` mesh periods: raise n_watch or "
+        "max_period; without damping there is nothing to settle on",
     )
     ESCAPED = (
         "escaped",
@@ -42,7 +46,16 @@ class Status(Outcome):
     NOT_RUN = "not_run", "the run was stopped before this value: run it again"
     EXHAUSTED = (
         "exhausted",
-        "the limit on work came before the motion was judged: raise most_work, or lower n_transient",
+        "the limit on work came before the motion was judged: raise most_work, or lower n_transient or n_watch",
+    )
+    TRANSIENT = (
+        "transient",
+        "chaotic for as long as it was watched, on a set that other motions have left and that is no attractor: "
+        "raise n_watch to see where this one goes",
+    )
+    FLOATING = (
+        "floating",
+        "never in contact, without a mean force: it repeats, and so does any shift of it within the backlash",
     )
 
 
@@ -59,22 +72,29 @@ class SettleOptions(TypedDict, total=False):
     max_period : int
         The longest period looked for, in mesh periods.
     n_exponent : int
-        Mesh periods over which the exponents of a motion that is not periodic are measured.
+        Mesh periods over which the exponents of a motion that is not periodic are measured; again over `n_watch` if
+        they are not resolved.
+    n_watch : int
+        Mesh periods that such a motion is then watched for, in case it settles after all: some 0.4 microseconds each.
+        Without damping nothing settles, and it is not watched.
 
     Notes
     -----
     What is taken where nothing is given: `ONE` for a motion and for a sweep, `MANY` for planes and maps.
 
+    A chaotic transient of the mean life T outlasts the watch with the probability ``exp(-n_watch / T)``.
+
     Examples
     --------
     >>> from gearpair.motion.settling import MANY, ONE
-    >>> ONE.max_period, ONE.n_exponent, MANY.max_period, MANY.n_exponent
-    (64, 2000, 64, 500)
+    >>> ONE.n_exponent, ONE.n_watch, MANY.n_exponent, MANY.n_watch
+    (2000, 20000, 500, 20000)
     """
 
     n_transient: int | None
     max_period: int
     n_exponent: int
+    n_watch: int
 
 
 class BatchOptions(SettleOptions, total=False):
@@ -97,6 +117,7 @@ class SettleSettings:
     n_transient: int | None = None
     max_period: int = 64
     n_exponent: int = 2000
+    n_watch: int = 20_000
     n_samples: int = 256
     measures: bool = False
     most_work: int | None = None
@@ -104,6 +125,7 @@ class SettleSettings:
     def __post_init__(self) -> None:
         if self.n_transient is not None:
             check_count("n_transient", self.n_transient, at_least=0)
+        check_count("n_watch", self.n_watch, at_least=0)
         if self.most_work is not None:
             check_count("most_work", self.most_work)
         for name in ("max_period", "n_exponent", "n_samples"):
@@ -113,6 +135,11 @@ class SettleSettings:
         """These settings but for the `options` that somebody gave, and the caller's `own`."""
         check_options(options, allowed.__annotations__)
         return replace(self, **options, **own)
+
+    def before_watch(self, osc: Oscillator) -> int:
+        """Mesh periods after which the watch of a motion begins that has not settled."""
+        waited = transient_periods(osc) if self.n_transient is None else self.n_transient
+        return waited + observed_periods(self.n_exponent)
 
     def whole_cycles(self) -> Self:
         """These settings with room for a cycle of the longest period."""
@@ -187,12 +214,14 @@ def settle_batch(
     n = len(starts)
     out = blank(n, settings)
     most = settings.share_of_work(n) if share is None else share
-    limits = Limits(settings.max_period, settings.n_exponent, most)
+    limits = Limits(settings.max_period, settings.n_exponent, settings.n_watch, most)
     lanes = lanes_of(oscillators, starts, settings)
     arguments = (lanes, chain, limits, known or nothing_known(settings), out)
     single = chain == n  # one chain is carried along in parts, one after the other
     block = BLOCK_OF_ONE if len(oscillators) == 1 else BLOCK if chain == 1 or single else chain
-    with stoppable(out, progress, np.minimum(lanes.n_transient + settings.n_exponent, most).sum()) as done:
+    with stoppable(
+        out, progress, np.minimum(lanes.n_transient + settings.n_exponent + settings.n_watch, most).sum()
+    ) as done:
         on_all_cores(settle_lanes, arguments, n, block, done, cores and not single)
     return out
 
@@ -243,7 +272,7 @@ def lanes_of(oscillators: Sequence[Oscillator], starts: NDArray[np.float64], set
 
 def nothing_known(settings: SettleSettings) -> Known:
     """No attractors."""
-    return Known(blank(0, settings), np.empty((0, COLUMNS)))
+    return Known(blank(0, settings), np.empty((0, COLUMNS)), np.empty((0, 4)))
 
 
 def blank(n: int, settings: SettleSettings) -> Settled:
@@ -258,5 +287,7 @@ def blank(n: int, settings: SettleSettings) -> Settled:
         np.full((n, 2), np.nan),
         np.full(n, -1),
         np.full((n, 4), np.nan),
+        np.zeros(n, np.int64),
+        np.full((n, 3), np.nan),
         np.full((n, N_MEASURES if settings.measures else 0), np.nan),
     )

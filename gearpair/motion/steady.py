@@ -27,8 +27,10 @@ class SteadyState:
     ----------
     oscillator : Oscillator
     status : Status
-        ``"periodic"``, ``"aperiodic"``, ``"unsettled"``, ``"escaped"`` or ``"capped"``;
+        ``"periodic"``, ``"aperiodic"``, ``"unsettled"``, ``"floating"``, ``"escaped"`` or ``"capped"``;
         ``status.remedy`` says what to do.
+    lasted : int
+        Mesh periods that the motion was followed for; of a periodic one, until it had settled.
     period : int or None
         In mesh periods; None unless periodic.
     points : ndarray of float, shape (n, 2)
@@ -48,6 +50,7 @@ class SteadyState:
 
     oscillator: Oscillator
     status: Status
+    lasted: int
     period: int | None
     points: NDArray[np.float64]
     multipliers: NDArray[np.complex128]
@@ -88,8 +91,13 @@ def steady_state(
     A motion is *periodic* when it enters a certified neighbourhood of a stable orbit, which no motion leaves; where
     none can be certified, when it returns within 1e-8 of itself (relative to max(1, |X|, |X'|)) and the stable orbit
     lies within 1e-6; after the whole transient, also when it approaches a stable orbit within 1e-2. The points and
-    multipliers are those of the orbit, exact to rounding. Otherwise it is *aperiodic* when its largest Lyapunov
-    exponent exceeds four standard errors, and *unsettled* when not.
+    multipliers are those of the orbit, exact to rounding.
+
+    A motion that has not settled after `n_transient` is observed for `n_exponent` periods and then watched for
+    `n_watch`: chaos in this model may go on for ten thousands of mesh periods and then settle for good. It is
+    *aperiodic* when it has not settled even then and its largest Lyapunov exponent exceeds four standard errors, and
+    *unsettled* when that is not so: a statement about the `lasted` mesh periods, no more. *Floating* is a motion that
+    repeats within the backlash, which has no attractor but a family of such motions.
 
     Examples
     --------
@@ -112,6 +120,7 @@ def describe(osc: Oscillator, out: Settled, i: int) -> SteadyState:
     return SteadyState(
         oscillator=osc,
         status=status,
+        lasted=int(out.lasted[i]),
         period=period,
         points=points[:period].copy(),
         multipliers=multipliers_of(out.monodromy[i]),

@@ -51,7 +51,9 @@ MOTION_COLOURS = MappingProxyType(
         "period 8": "#56B4E9",
         "other periods": "#8A6D3B",
         "chaos": "#3A3A3A",
+        "chaotic transient": "#8573A8",
         "unsettled": "#A9A9A9",
+        "floating": "#C5D5BE",
         "escaped": "#E5E5E5",
     }
 )
