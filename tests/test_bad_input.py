@@ -155,7 +155,7 @@ def test_a_call_with_a_value_out_of_range(message):
     assert message in str(failure.value)
 
 
-SETTLING = "the options are n_transient, max_period, n_exponent"
+SETTLING = "the options are n_transient, max_period, n_exponent, n_watch"
 DIAGRAM = "the options are n_transient, n_samples, closeness"
 
 

@@ -205,17 +205,18 @@ def attempt(
 
 
 @kernel
-def follow(cells: Cells, x: float, v: float, n_periods: int, max_period: int, work: Scratch) -> Course:
-    """Follow a motion until it is captured, `n_periods` at most. Adds to the work's way."""
+def follow(
+    cells: Cells, x: float, v: float, n_periods: int, max_period: int, work: Scratch, reach: Array | None
+) -> Course:
+    """Follow a motion until it is captured, `n_periods` at most. Widens `reach` and adds to the periods of the way."""
     rows, n_known = work.neighbourhoods, len(work.known.neighbourhoods)
     orbit = Orbit(0, x, v, 0)
-    begin_reach(work.reach, x)
     done, within, span, closeness = 0, 0, FIRST_SPAN, PROMISING
     x0, v0 = x, v
     status, returned = OK, False
     held = inside(rows, n_known, x, v)
     while held < 0 and done < n_periods and not returned:
-        status, x, v = inlined_walk(cells, x, v, 1, work.series, None, work.reach)
+        status, x, v = inlined_walk(cells, x, v, 1, work.series, None, reach)
         if status != OK:
             break
         done += 1
@@ -230,18 +231,24 @@ def follow(cells: Cells, x: float, v: float, n_periods: int, max_period: int, wo
             closeness = max(RETURNED, LESS * closeness)
         if within >= min(span, max_period):
             x0, v0, within, span = x, v, 0, 2 * span
-    extend(work.way, done, work.reach)
+    work.way[0] += done
     if held < n_known and (held >= 0 or not returned):
         orbit = Orbit(0, x, v, 0)
     return Course(status, x, v, held, orbit)
 
 
 @kernel
-def extend(way: Array, n_periods: int, reach: Array) -> None:
-    """Add `n_periods` with a reach to a way."""
-    way[0] += n_periods
-    way[1] += reach[DRIVE] + reach[COAST]
-    way[2], way[3] = min(way[2], reach[LOWEST]), max(way[3], reach[HIGHEST])
+def begin_way(work: Scratch, x: float) -> None:
+    """Begin a way at `x`."""
+    work.way[0], work.way[1], work.way[2], work.way[3] = 0.0, 0.0, x, x
+    begin_reach(work.reach, x)
+
+
+@kernel
+def end_way(work: Scratch) -> None:
+    """Note what the reach was over the periods of a way."""
+    work.way[1] = work.reach[DRIVE] + work.reach[COAST]
+    work.way[2], work.way[3] = work.reach[LOWEST], work.reach[HIGHEST]
 
 
 @kernel
@@ -304,7 +311,7 @@ def observe(cells: Cells, course: Course, n_exponent: int, work: Scratch, out: S
     status, x, v, largest, error = exponents(
         cells, course.x, course.v, per_block, n_exponent, EXPONENT_BLOCKS, work.reach
     )
-    extend(work.way, observed_periods(n_exponent), work.reach)
+    work.way[0] += observed_periods(n_exponent)
     fill_exponents(cells, largest, error, out.exponents[i])
     out.extremes[i, 0], out.extremes[i, 1] = work.reach[LOWEST], work.reach[HIGHEST]
     out.chaos[i, 0], out.chaos[i, 1], out.chaos[i, 2] = work.reach[LOWEST], work.reach[HIGHEST], largest
@@ -350,7 +357,7 @@ def judge(cells: Cells, course: Course, limits: Limits, work: Scratch, out: Sett
         return course
     n_watch = limits.n_watch if cells.damping_ratio > 0.0 else 0
     left = max(0, min(n_watch, limits.most - int(work.way[0])))
-    course = follow(cells, course.x, course.v, left, limits.max_period, work)
+    course = follow(cells, course.x, course.v, left, limits.max_period, work, None)
     if not undecided(course):
         return course
     if left < n_watch:
@@ -377,8 +384,9 @@ def settle(
     cells: Cells, x: float, v: float, n_transient: int, limits: Limits, work: Scratch, out: Settled, i: int
 ) -> None:
     """Follow one motion until it is settled and fill row `i` of `out`."""
-    work.way[0], work.way[1], work.way[2], work.way[3] = 0.0, 0.0, x, x
-    course = follow(cells, x, v, min(n_transient, limits.most), limits.max_period, work)
+    begin_way(work, x)
+    course = follow(cells, x, v, min(n_transient, limits.most), limits.max_period, work, work.reach)
+    end_way(work)
     out.way[i] = work.way
     if undecided(course):
         out.status[i] = EXHAUSTED
@@ -387,14 +395,13 @@ def settle(
     out.lasted[i] = int(work.way[0])
     out.final[i, 0], out.final[i, 1] = limit_of(course, work)
     if captured(course):
-        observed = out.lasted[i] == n_transient + observed_periods(limits.n_exponent)
         if 0 <= course.held < len(work.known.neighbourhoods):
             out.attractor[i] = int(work.neighbourhoods[course.held, OWNER])
             copy_row(work.known.settled, out.attractor[i], out, i)
         else:
             describe_orbit(cells, course.orbit, work, out, i)
         first, n = neighbourhoods_of(cells, course, work)
-        if course.orbit.period > 0 or observed:
+        if course.orbit.period > 0 or out.lasted[i] > n_transient:
             course = arrive(cells, x, v, first, n, work)
         out.way[i] = work.way
         out.lasted[i] = int(work.way[0])
@@ -437,18 +444,18 @@ def neighbourhoods_of(cells: Cells, course: Course, work: Scratch) -> tuple[int,
 def arrive(cells: Cells, x: float, v: float, first: int, n: int, work: Scratch) -> Course:
     """Walk once more from the start until the first of `n` neighbourhoods holds the motion. Fills the work's way.
 
-    The orbit was found when the motion had come near, or while nobody asked where it was; had it been known and asked
-    for, it would have captured the motion before.
+    An orbit that was not known was found when the motion had come near already, and what is observed or watched is
+    not asked for its range.
     """
     rows, most, done = work.neighbourhoods[first : first + n], int(work.way[0]), 0
-    work.way[0], work.way[1], work.way[2], work.way[3] = 0.0, 0.0, x, x
-    begin_reach(work.reach, x)
+    begin_way(work, x)
     held = inside(rows, n, x, v)
     while held < 0 and done < most:
         _status, x, v = inlined_walk(cells, x, v, 1, work.series, None, work.reach)
         done += 1
         held = inside(rows, n, x, v)
-    extend(work.way, done, work.reach)
+    work.way[0] = done
+    end_way(work)
     return Course(OK, x, v, first + held if held >= 0 else -1, Orbit(0, x, v, 0))
 
 

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from gearpair._flow.settle import APERIODIC, GONE, PERIODIC, SAME_EXPONENT, SAME_RANGE, TRANSIENT
 from gearpair.ensembles.escape_rates import EscapeRate, counted_rate
 
-# Motions whose smallest X, largest X and exponent, in these steps, are equal or next to one another are on one set.
-STEPS = (SAME_RANGE, SAME_RANGE, SAME_EXPONENT)
+# Motions whose smallest X, largest X and exponent, in these steps, are equal or next to one another are on one set. A
+# few of many reach farther than the others in the same time, so the steps of the range are wide.
+STEPS = (2.0 * SAME_RANGE, 2.0 * SAME_RANGE, SAME_EXPONENT)
 NAMES = ("chaos_x_min", "chaos_x_max", "chaos_exponent")
 LIFE = ("mean_life", "mean_life_low", "mean_life_high")
 

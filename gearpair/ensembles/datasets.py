@@ -108,6 +108,12 @@ def variables_of(
     return variables
 
 
+def with_numbers(result: xr.Dataset) -> xr.Dataset:
+    """A dataset with the numbers of its attractors and chaotic sets as coordinates."""
+    names = [name for name in ("attractor_number", "set_number") if name in result.sizes]
+    return result.assign_coords({name: np.arange(result.sizes[name]) for name in names})
+
+
 def section_variables(parameter: str, points: NDArray[np.float64]) -> dict[str, Any]:
     """Section points (n, n_samples, 2) along a parameter as xarray variables ``x`` and ``v``."""
     return {name: ((parameter, "sample"), points[:, :, i], attributes(name)) for i, name in enumerate(("x", "v"))}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,9 +16,9 @@ from gearpair._flow.settle import CAPTURED, GONE, NOT_RUN, PERIODIC, Known, Sett
 from gearpair._flow.walk import ESCAPED, OK
 from gearpair._flow.watch import Watched, watch_starts
 from gearpair.ensembles.capture import known_among, numbered, scouts
-from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
+from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of, with_numbers
 from gearpair.ensembles.escape_rates import EscapeRate, Persistence, escape_rate
-from gearpair.ensembles.planes import RATES, attractor_variables, with_numbers
+from gearpair.ensembles.planes import RATES, attractor_variables
 from gearpair.motion.settling import MANY, SettleSettings, nothing_known, settle_batch, transient_periods
 from gearpair.motion.trajectories import check_starts, raise_if_capped
 from gearpair.oscillator import Oscillator
@@ -172,7 +173,7 @@ def watched_starts(
 
     The last has one row for each start that was not captured, settled from where it has come to.
     """
-    settings = MANY.whole_cycles()
+    settings = replace(MANY, n_watch=0).whole_cycles()  # the watch is this function's own
     known = nothing_known(settings)
     known = _joined(osc, known, _settled(osc, starts[scouts(len(starts))], settings, known))
     n = len(starts)
@@ -212,7 +213,7 @@ def _neighbourhoods(known: Known) -> NDArray[np.float64]:
     for i in np.setdiff1d(np.arange(len(known.settled.period)), known.neighbourhoods[:, OWNER]).tolist():
         points = known.settled.points[i, : known.settled.period[i]]
         form = 1.0 / (CAPTURED * np.maximum(1.0, np.abs(points).max(axis=1))) ** 2
-        circles.append(np.column_stack([points, form, 0.0 * form, form, np.full(len(points), float(i))]))
+        circles.append(np.column_stack([points, form, 0.0 * form, form, np.full(len(points), float(i)), 0.0 * form]))
     return np.concatenate([known.neighbourhoods, *circles])
 
 

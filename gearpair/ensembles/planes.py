@@ -24,9 +24,9 @@ from gearpair.ensembles.capture import (
     with_sets,
 )
 from gearpair.ensembles.chaos import chaotic_sets, observed_in, scouted
-from gearpair.ensembles.datasets import OF_PLANES, dataset, settled_columns, variables_of, way_columns
+from gearpair.ensembles.datasets import OF_PLANES, dataset, settled_columns, variables_of, way_columns, with_numbers
 from gearpair.ensembles.escape_rates import EscapeRate, Persistence
-from gearpair.ensembles.stores import add_column, add_table, by_store, read_blocks, stored
+from gearpair.ensembles.stores import add_column, add_table, by_store, column_of, read_blocks, stored
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import Motion, motions_from
 from gearpair.motion.settling import MANY, BatchOptions, SettleSettings, settle_batch
@@ -178,10 +178,11 @@ def _number(plane: Plane, group: Group) -> None:
     discard, n_x, n = plane.settings.before_watch(plane.osc), len(plane.axes["x"]), len(plane.axes["v"])
     observed = [observed_in(columns, discard) for _first, _last, columns in read_blocks(plane, group, names)]
     sets = chaotic_sets([*observed, scouted(plane.known.lasting)])
+    status = column_of(group, "status")
     found: list[Found] = []
     for first, last, columns in read_blocks(plane, group, names):
         columns = with_sets(sets, columns, discard)
-        group["status"][first:last] = columns["status"].reshape(last - first, n_x)
+        status[first:last] = columns["status"].reshape(last - first, n_x)
         found.append(found_in(columns, first * n_x)[0])
     numbers, table = number_attractors(found, sets)
     leads_to = np.zeros((len(sets.observed.motions), len(table["counts"])), np.int64)
@@ -217,12 +218,6 @@ def numbered_variables(result: Numbered, n: int, *, coded: bool = False) -> dict
 def _persistence(rate: EscapeRate) -> str:
     """Whether a chaotic set lasts, in a word."""
     return str(rate.persistence if rate.n_watched else Persistence.UNWATCHED)
-
-
-def with_numbers(result: xr.Dataset) -> xr.Dataset:
-    """A dataset with the numbers of its attractors and chaotic sets as coordinates."""
-    names = [name for name in ("attractor_number", "set_number") if name in result.sizes]
-    return result.assign_coords({name: np.arange(result.sizes[name]) for name in names})
 
 
 def attractor_variables(

@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
 from gearpair.ensembles.capture import known_attractors, numbered, scouts
-from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns
-from gearpair.ensembles.planes import attractor_variables, basins, with_numbers
+from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, with_numbers
+from gearpair.ensembles.planes import attractor_variables, basins
 from gearpair.motion.names import motions_of
 from gearpair.motion.settling import MANY, BatchOptions, SettleOptions, settle_batch
 from gearpair.oscillator import Oscillator

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from tqdm import tqdm
 
 from gearpair._locks import held
-from gearpair.ensembles.datasets import axis_attributes, variables_of
+from gearpair.ensembles.datasets import axis_attributes, variables_of, with_numbers
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -144,6 +144,11 @@ def add_column(grid: MotionGrid, group: Group, name: str, dtype: Any) -> Any:
     return _whole(_create(grid, group, name, np.empty(0, dtype)))
 
 
+def column_of(group: Group, name: str) -> Any:
+    """An array of the store that is there, to write to."""
+    return _whole(group[name])
+
+
 def add_table(group: Group, variables: Mapping[str, Any]) -> None:
     """Small variables besides those of each motion."""
     for name, (dims, values, facts) in variables.items():
@@ -191,9 +196,7 @@ def opened_dataset(path: str | Path) -> xr.Dataset:
     whole = xr.open_zarr(path, chunks=None, consolidated=False, mask_and_scale=False)
     result = whole.drop_vars("done")
     result.attrs = {"oscillator": result.attrs["oscillator"]}
-    if "attractor_number" in result.sizes:
-        result = result.assign_coords(attractor_number=np.arange(result.sizes["attractor_number"]))
-    return result
+    return with_numbers(result)
 
 
 def decoded(result: xr.Dataset) -> xr.Dataset:

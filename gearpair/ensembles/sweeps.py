@@ -26,7 +26,7 @@ from gearpair.ensembles.stores import by_store, stored
 from gearpair.motion.measures import measure_columns
 from gearpair.motion.same_orbit import same_motions
 from gearpair.motion.settling import (
-    MANY,
+    MAP,
     ONE,
     BatchOptions,
     SettleOptions,
@@ -79,7 +79,7 @@ def sweep(
     -------
     xarray.Dataset
         Dimensions ``(parameter, sample)``: ``x, v`` on the section, and per value ``status``, ``period``,
-        ``impact_state``, ``x_min``, ``x_max``, ``exponent`` and ``exponent_error``.
+        ``impact_state``, ``x_min``, ``x_max``, ``exponent``, ``exponent_error`` and ``lasted``.
 
     Examples
     --------
@@ -135,7 +135,14 @@ def parameter_map(
     -------
     xarray.Dataset
         The axes are its dimensions, in their order; variables ``status``, ``period``, ``impact_state``,
-        ``x_min``, ``x_max``, ``exponent``, ``exponent_error``, and what was asked for.
+        ``x_min``, ``x_max``, ``exponent``, ``exponent_error``, ``lasted``, and what was asked for.
+
+    Notes
+    -----
+    Every point is a system of its own, so no other motion vouches for it: ``"aperiodic"`` says that the motion had not
+    settled after ``lasted`` mesh periods, 12 000 more than with `n_watch` = 0. A chaotic transient of the mean life T
+    passes for chaos with the probability ``exp(-12 000 / T)``: one in 400 where T is 2000, three in ten where it is
+    10 000. Where a third of the points are chaotic, the watch makes the map take about three times as long.
 
     Examples
     --------
@@ -148,7 +155,7 @@ def parameter_map(
     checked = {name: oscillators_along(osc, name, values)[1] for name, values in axes.items()}
     if carried is not None:
         check_choice("carried", carried, tuple(checked))
-    settings = MANY.having(settling, BatchOptions, measures=measures)
+    settings = MAP.having(settling, BatchOptions, measures=measures)
     others = np.empty((0, 2)) if starts is None else np.array(starts, dtype=float)
     if others.ndim != 2 or others.shape[1] != 2 or not np.all(np.isfinite(others)):
         raise ValueError(f"starts must be pairs of finite numbers, got shape {others.shape}")

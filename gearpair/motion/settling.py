@@ -150,12 +150,13 @@ class SettleSettings:
         return UNLIMITED if self.most_work is None else self.most_work // max(n, 1)
 
 
-# What is asked of a motion, by purpose: one, or a sweep, in full; many at a time; a chart, whose verdict on chaos needs
-# no more digits; periods alone.
+# What is asked of a motion, by purpose: one, or a sweep, in full; many at a time; a map, a third of whose points may be
+# chaotic; a chart, whose verdict on chaos needs no more digits; periods alone, where chaos is none of them.
 ONE = SettleSettings()
 MANY = SettleSettings(n_exponent=500, n_samples=1)
+MAP = replace(MANY, n_watch=12_000)
 CHART = SettleSettings(max_period=16, n_exponent=300, n_samples=16)
-PERIODS = SettleSettings(n_exponent=20, n_samples=1)
+PERIODS = SettleSettings(n_exponent=20, n_watch=0, n_samples=1)
 
 
 def transient_periods(osc: Oscillator) -> int:
@@ -219,9 +220,9 @@ def settle_batch(
     arguments = (lanes, chain, limits, known or nothing_known(settings), out)
     single = chain == n  # one chain is carried along in parts, one after the other
     block = BLOCK_OF_ONE if len(oscillators) == 1 else BLOCK if chain == 1 or single else chain
-    with stoppable(
-        out, progress, np.minimum(lanes.n_transient + settings.n_exponent + settings.n_watch, most).sum()
-    ) as done:
+    watches = np.where(lanes.scalars.reshape(-1, 5)[lanes.own, 3] > 0.0, settings.n_watch, 0)  # of damped motions alone
+    longest = np.minimum(lanes.n_transient + settings.n_exponent + watches, most).sum()
+    with stoppable(out, progress, longest) as done:
         on_all_cores(settle_lanes, arguments, n, block, done, cores and not single)
     return out
 

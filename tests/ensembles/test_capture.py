@@ -8,9 +8,19 @@ from benchmarks.labels import Case, cases, compare
 from gearpair import _cores
 from gearpair._flow.capture import COLUMNS, OWNER, QVV, QXV, QXX, inside, surround
 from gearpair._flow.closed_form import TERMS
-from gearpair.ensembles.capture import found_in, known_attractors, number_attractors, scouts
+from gearpair._flow.settle import APERIODIC, GONE, PERIODIC, TRANSIENT
+from gearpair.ensembles.capture import (
+    POOL,
+    found_in,
+    known_attractors,
+    number_attractors,
+    numbered,
+    scouts,
+    with_sets,
+)
+from gearpair.ensembles.chaos import chaotic_sets, observed_in
 from gearpair.ensembles.datasets import settled_columns
-from gearpair.motion.settling import SettleSettings, settle_batch
+from gearpair.motion.settling import MANY, SettleSettings, settle_batch
 from tests.support.oscillators import level
 
 BASELINE = gp.Oscillator()
@@ -96,7 +106,7 @@ def test_a_wrong_label_is_noticed():
     known = known_attractors(osc, starts, settings)
     one = int(np.flatnonzero(known.settled.period == 1)[0])
     lying = known._replace(
-        neighbourhoods=known.neighbourhoods * np.array([1, 1, 1e-8, 1e-8, 1e-8, 0]) + [0, 0, 0, 0, 0, one]
+        neighbourhoods=known.neighbourhoods * np.array([1, 1, 1e-8, 1e-8, 1e-8, 0, 1]) + [0, 0, 0, 0, 0, one, 0]
     )
     assert np.all(settle_batch([osc], starts, settings, known=lying).period == 1)
     assert compare(Case("honest", osc), 100, seed=3).changed == 0
@@ -137,42 +147,102 @@ def test_the_way_to_the_attractor_is_what_the_trajectory_shows():
         assert np.abs(cycle - (motion.x[-1], motion.v[-1])).max(axis=1).min() < 0.1
 
 
+def chaotic(low, high, exponent, status=None, lasted=None):
+    """Columns of motions that were chaotic after 1000 mesh periods, told by their ranges and exponents."""
+    n = len(low)
+    columns = {
+        "status": np.full(n, APERIODIC) if status is None else np.array(status),
+        "period": np.zeros(n, np.int64),
+        "section_x": np.full(n, np.nan),
+        "section_v": np.full(n, np.nan),
+        "lasted": np.full(n, 21_000) if lasted is None else np.array(lasted),
+    }
+    for name, column in (("x_min", low), ("x_max", high), ("exponent", exponent)):
+        columns[name] = columns[f"chaos_{name}"] = np.array(column)
+    return columns
+
+
+MIRRORED = [-0.2, -2.1, -0.1, -2.2, -0.3], [2.1, 0.2, 2.2, 0.1, 2.0], [0.08, 0.08, 0.09, 0.08, 0.07]
+NOTHING = np.empty((0, 4))
+
+
 def test_chaotic_sets_that_differ_are_told_apart():
     """Two sets of one flank each, the mirror images of each other; and one that is more chaotic."""
-    columns = {
-        "status": np.array([1, 1, 1, 1, 1]),
-        "period": np.zeros(5, int),
-        "section_x": np.full(5, np.nan),
-        "section_v": np.full(5, np.nan),
-        "x_min": np.array([-0.2, -2.1, -0.1, -2.2, -0.3]),
-        "x_max": np.array([2.1, 0.2, 2.2, 0.1, 2.0]),
-        "exponent": np.array([0.08, 0.08, 0.09, 0.08, 0.07]),
-    }
-    found, places = found_in(columns)
-    (numbers,), table = number_attractors([found])
-    assert numbers[places].tolist() == [1, 0, 1, 0, 1]
-    assert table["counts"].tolist() == [2, 3]
-    apart = columns | {"exponent": np.array([0.08, 0.08, 0.38, 0.08, 0.07])}
-    found, places = found_in(apart)
-    (numbers,), _ = number_attractors([found])
-    assert len(np.unique(numbers[places])) == 3
+    result = numbered(chaotic(*MIRRORED), 1000, NOTHING)
+    assert result.columns["attractor"].tolist() == [1, 0, 1, 0, 1]
+    assert result.table["counts"].tolist() == [2, 3]
+    assert result.table["x_min"].tolist() == [-2.2, -0.3] and result.table["x_max"].tolist() == [0.2, 2.2]
+    assert result.table["exponent"] == pytest.approx([0.08, 0.08])
+    apart = numbered(chaotic(*MIRRORED[:2], [0.08, 0.08, 0.38, 0.08, 0.07]), 1000, NOTHING)
+    assert len(np.unique(apart.columns["attractor"])) == 3
+
+
+def test_a_set_that_one_motion_has_left_is_no_attractor():
+    """The third of the mirrored motions settles at last: its set is a transient, the other one is not."""
+    status, lasted = np.full(5, APERIODIC), np.full(5, 21_000)
+    status[2], lasted[2] = PERIODIC, 5000
+    columns = chaotic(*MIRRORED, status, lasted)
+    columns["period"][2], columns["section_x"][2], columns["section_v"][2] = 2, 0.1, 0.2
+    result = numbered(columns, 1000, NOTHING)
+    assert result.columns["status"].tolist() == [TRANSIENT, APERIODIC, PERIODIC, APERIODIC, TRANSIENT]
+    assert result.columns["attractor"].tolist() == [-1, 1, 0, 1, -1]
+    assert result.columns["chaotic_set"].tolist() == [1, 0, 1, 0, 1]
+    assert result.leads_to.tolist() == [[0, 0], [1, 0]]
+    lasting, transient = result.sets.rates
+    assert (lasting.n_watched, lasting.watched_periods, lasting.escapes) == (2, 40_000, 0)
+    assert lasting.mean_life_low == pytest.approx(40_000 / -np.log(0.05))
+    assert (transient.n_watched, transient.watched_periods, transient.escapes) == (3, 44_000, 1)
+
+
+def test_what_settles_before_the_watch_has_left_no_set_and_what_was_never_chaotic_neither():
+    status, lasted = [PERIODIC, APERIODIC, PERIODIC, GONE, APERIODIC], [1000, 21_000, 5000, 5000, 21_000]
+    columns = chaotic([-0.1] * 5, [2.0] * 5, [0.08, 0.08, -0.02, 0.08, 0.08], status, lasted)
+    result = numbered(columns, 1000, NOTHING)
+    assert result.columns["chaotic_set"].tolist() == [-1, 0, -1, 0, 0]
+    assert result.sets.rates[0].escapes == 1 and not result.leads_to.any()
+
+
+def test_what_scouts_have_watched_counts_for_the_set_and_not_as_motions():
+    scouts_saw = np.array([[-0.15, 2.05, 0.08, 500_000.0], [-0.25, 2.15, 0.08, 500_000.0]])
+    columns = chaotic(*(np.array(column)[[0, 2, 4]] for column in MIRRORED), lasted=[1000, 1000, 1000])
+    result = numbered(columns, 1000, scouts_saw)
+    (rate,) = result.sets.rates
+    assert (rate.n_watched, rate.watched_periods) == (2, 1_000_000)
+    assert result.table["counts"].tolist() == [3] and result.table["exponent"] == pytest.approx([0.08])
+
+
+def test_where_many_scouts_find_lasting_chaos_the_others_are_not_watched():
+    osc = BASELINE.replace(mesh_frequency=1.219)
+    plane = gp.basins(osc, np.linspace(-3.0, 3.0, 16), np.linspace(-2.0, 2.0, 12))
+    still = plane.lasted.values[plane.status.values == "aperiodic"]
+    assert still.size > 80 and np.all(still == MANY.before_watch(osc))
+    assert plane.set_persistence.values.tolist() == ["lasting"]
+    assert int(plane.set_watched_periods[0]) >= POOL and float(plane.set_mean_life_low[0]) > POOL / 3.0
+    assert plane.set_still.values.tolist() == [still.size]
+    few = gp.basins(osc, np.linspace(-3.0, 3.0, 5), np.linspace(-2.0, 2.0, 4))
+    alone = few.lasted.values[few.status.values == "aperiodic"]
+    assert alone.size > 5 and np.all(alone == MANY.before_watch(osc) + MANY.n_watch)
 
 
 def test_numbering_does_not_depend_on_how_the_starts_are_cut():
-    osc = BASELINE.replace(mesh_frequency=0.9)
+    osc = BASELINE.replace(mesh_frequency=1.6)
     starts = np.random.default_rng(5).uniform(-3.0, 3.0, (200, 2))
-    settings = SettleSettings(n_exponent=100, n_samples=1)
-    columns = settled_columns(settle_batch([osc], starts, settings, known=known_attractors(osc, starts[:30], settings)))
-    found, places = found_in(columns)
-    (whole,), table = number_attractors([found])
-    halves = [
-        found_in({name: c[part] for name, c in columns.items()}, part.start) for part in (slice(0, 70), slice(70, 200))
-    ]
-    numbers, again = number_attractors([half[0] for half in halves])
-    joined = np.concatenate([n[half[1]] for n, half in zip(numbers, halves, strict=True)])
-    np.testing.assert_array_equal(joined, whole[places])
-    for name, column in table.items():
+    settings = SettleSettings(n_exponent=500, n_watch=5000, n_samples=1)
+    discard = settings.before_watch(osc)
+    columns = settled_columns(settle_batch([osc], starts, settings))
+    whole = numbered(columns, discard, NOTHING)
+    assert {PERIODIC, TRANSIENT} == set(whole.columns["status"].tolist())
+    parts = [{name: c[part] for name, c in columns.items()} for part in (slice(0, 70), slice(70, 200))]
+    sets = chaotic_sets([observed_in(part, discard) for part in parts])
+    judged = [with_sets(sets, part, discard) for part in parts]
+    found = [found_in(part, offset) for part, offset in zip(judged, (0, 70), strict=True)]
+    numbers, again = number_attractors([each for each, _ in found], sets)
+    joined = np.concatenate([n[places] for n, (_, places) in zip(numbers, found, strict=True)])
+    np.testing.assert_array_equal(joined, whole.columns["attractor"])
+    for name, column in whole.table.items():
         np.testing.assert_array_equal(again[name], column)
+    for ours, theirs in zip(sets.observed, whole.sets.observed, strict=True):
+        np.testing.assert_allclose(ours, theirs, rtol=1e-12)
 
 
 def test_a_batch_tells_the_most_that_it_may_take_before_it_starts(capsys):

@@ -8,6 +8,7 @@ from gearpair import _cores
 from gearpair._flow.walk import TOO_MANY_EVENTS
 from gearpair.ensembles import capture, lifetimes
 from gearpair.ensembles.escape_rates import escape_rate
+from gearpair.ensembles.planes import RATES
 
 X, V = (a.ravel() for a in np.meshgrid(np.linspace(-3.0, 3.0, 7), np.linspace(-2.0, 2.0, 5)))
 ENDING = gp.Oscillator(mesh_frequency=1.09)
@@ -50,7 +51,7 @@ def test_a_captured_start_is_on_its_orbit_for_ever(ending):
 
 def test_the_estimate_is_that_of_the_times(ending):
     estimate = escape_rate(ending.escape_time.values, 20_000, discard=500)
-    for name in lifetimes.ESTIMATES:
+    for name in RATES:
         assert ending[name].item() == getattr(estimate, name), name
     times = ending.escape_time.values
     assert estimate.escapes == np.sum(times > 500) and estimate.watched_periods == (times[times > 500] - 500).sum()
@@ -171,7 +172,7 @@ def test_along_a_parameter_each_value_is_a_survival_of_its_own():
     along = gp.ensembles.survival_along(gp.Oscillator(), "mesh_frequency", values, X[::6], V[::6], n_periods=2500)
     for i, value in enumerate(values):
         alone = gp.survival(gp.Oscillator(mesh_frequency=value), X[::6], V[::6], n_periods=2500)
-        for name in (*lifetimes.ESTIMATES, "persistence"):
+        for name in (*RATES, "persistence"):
             assert along[name].values[i] == alone[name].values[()], name
         assert (along.survivors[i], along.discarded[i]) == (alone.survivors[-1], alone.discard)
     assert along.mean_life.dims == ("mesh_frequency",) and along.mean_life.attrs["units"] == "1"

@@ -26,8 +26,8 @@ def test_restarted_sweep_is_one_steady_state_per_value():
 
 
 def test_carried_sweep_shows_hysteresis_where_two_motions_coexist():
-    """Always in contact under a heavy load, or bouncing: the history decides. Down from the top differs from up."""
-    values = np.linspace(0.7, 1.1, 21)
+    """Bouncing or nearly not: the history decides. Down from the top differs from up."""
+    values = np.linspace(0.4, 0.7, 21)
     up = gp.sweep(BASELINE, "mesh_frequency", values, **QUICK)
     down = gp.sweep(BASELINE, "mesh_frequency", values[::-1], **QUICK).sortby("mesh_frequency")
     assert up.attrs["seeding"] == "carry"

@@ -130,6 +130,8 @@ def test_statuses_are_strings_with_a_remedy_each():
         "capped",
         "exhausted",
         "not_run",
+        "transient",
+        "floating",
     }
     assert all(len(status.remedy) > 20 for status in Status)
 
