@@ -13,7 +13,7 @@ from gearpair.quantities import axis_label
 
 BELOW = 0.5  # where a curve goes that has no survivors left: under the axis
 # Of several curves the longer lived has the darker colour, between these two of the map.
-LIVES, SHORTEST, LONGEST = colormaps["plasma"], 0.78, 0.02
+LIVES, SHORTEST, LONGEST = colormaps["plasma"], 0.72, 0.02
 SHARES = {1.0: "all", 0.5: "half", 0.1: "1 in 10", 0.01: "1 in 100", 0.001: "1 in 1000"}
 
 
