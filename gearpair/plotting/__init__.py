@@ -51,7 +51,7 @@ from gearpair.plotting.methods import (
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
 from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, rattle, tooth_loads, tornado
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
-from gearpair.plotting.survivors import survival_curve
+from gearpair.plotting.survivors import survival_curve, survival_curves
 from gearpair.plotting.teeth import (
     compliance_stack,
     finite_element_check,
@@ -113,6 +113,7 @@ __all__ = [
     "stiffness_trends",
     "stiffness_wave",
     "survival_curve",
+    "survival_curves",
     "time_history",
     "tooth_loads",
     "tooth_outlines",

@@ -1,7 +1,10 @@
 """How long chaos lives: the survivors over the mesh periods."""
 
+from collections.abc import Mapping
+
 import numpy as np
 import xarray as xr
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 
 from gearpair.ensembles.lifetimes import estimate_of
@@ -9,6 +12,9 @@ from gearpair.plotting.style import BOUNDARY, INK, new_axes
 from gearpair.quantities import axis_label
 
 BELOW = 0.5  # where a curve goes that has no survivors left: under the axis
+# Of several curves the longer lived has the darker colour, between these two of the map.
+LIVES, SHORTEST, LONGEST = colormaps["plasma"], 0.72, 0.02
+SHARES = {1.0: "all", 0.5: "half", 0.1: "1 in 10", 0.01: "1 in 100", 0.001: "1 in 1000"}
 
 
 def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, legend: bool = True) -> Axes:
@@ -45,3 +51,71 @@ def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, colour: str = 
     ax.set(xlabel=axis_label("waited"), ylabel=axis_label("survivors"), xlim=(0.0, end))
     ax.set_ylim(1.4 * BELOW, 1.4 * max(survivors[0], 1))
     return ax
+
+
+def survival_curves(
+    results: Mapping[str, xr.Dataset], ax: Axes | None = None, *, until: int | None = None, lowest: float = 0.005
+) -> Axes:
+    """The survivors of several watches in one picture, each as a share of those that `discard` left.
+
+    Time begins at the end of what is discarded, so all begin at one; a constant rate is a straight line through that
+    point. Steps for the survivors; dashed, the line of the fitted rate in the strip of its interval. The longer a mean
+    life, the darker the curve. Its name stands where it leaves the picture. One that had nothing left to watch is not
+    drawn.
+
+    Parameters
+    ----------
+    results : mapping of str to xarray.Dataset
+        Of `gearpair.survival`, by the name that a curve gets.
+    until : int, optional
+        Mesh periods that are shown; as long as all were watched when not given.
+    lowest : float
+        The smallest share that is shown.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> two = {f"at {speed}": gp.Oscillator(mesh_frequency=speed) for speed in (1.09, 1.219)}
+    >>> ax = survival_curves({name: gp.survival(osc, [-1.0, 0.0, 1.0], -1.0) for name, osc in two.items()})
+    >>> sorted(text.get_text() for text in ax.texts)
+    ['at 1.09', 'at 1.219']
+    """
+    ax = new_axes(ax, 4.0)
+    estimates = {name: estimate_of(result) for name, result in results.items()}
+    ranked = sorted((name for name in results if estimates[name].n_watched), key=lambda name: estimates[name].mean_life)
+    watches = [result.attrs["n_periods"] - result.attrs["discard"] for result in results.values()]
+    end = float(min(watches, default=1) if until is None else until)
+    for i, name in enumerate(ranked):
+        estimate, result = estimates[name], results[name]
+        colour = LIVES(SHORTEST + (LONGEST - SHORTEST) * i / max(len(ranked) - 1, 1))
+        since = result.waited.values - result.attrs["discard"]
+        shares = np.maximum(result.survivors.values / estimate.n_watched, 0.1 * lowest)
+        ax.step(since[since >= 0], shares[since >= 0], where="post", color=colour, linewidth=1.6, label=name)
+        tau = np.linspace(0.0, end, 400)
+        rates = estimate.escape_rate_high, estimate.escape_rate, estimate.escape_rate_low
+        steepest, fitted, flattest = (np.exp(-rate * tau) for rate in rates)
+        ax.fill_between(tau, steepest, flattest, color=colour, alpha=0.16, linewidth=0)
+        if estimate.escapes:
+            ax.plot(tau, fitted, color=colour, linewidth=0.8, linestyle="--")
+        _name_curve(ax, name, float(estimate.escape_rate), end, lowest, colour)
+    ax.set_yscale("log")
+    ax.set_yticks([*SHARES], [*SHARES.values()])
+    ax.set_yticks([], minor=True)
+    ax.set(xlabel=axis_label("waited"), ylabel=axis_label("survivors"), xlim=(0.0, end), ylim=(lowest, 1.25))
+    ax.grid(axis="y", color=BOUNDARY, alpha=0.25, linewidth=0.6)
+    return ax
+
+
+def _name_curve(
+    ax: Axes, name: str, rate: float, end: float, lowest: float, colour: tuple[float, float, float, float]
+) -> None:
+    """A curve's name beside the frame where it leaves on the right, and beside the curve where it leaves below."""
+    low = 1.6 * lowest
+    if np.exp(-rate * end) > low:
+        at, height, centre = end, float(np.exp(-rate * end)), "center"
+    else:
+        at, height, centre = -np.log(low) / rate, low, "baseline"
+    ax.annotate(
+        name, (at, height), (6.0, 0.0), textcoords="offset points", va=centre, color=colour,
+        annotation_clip=False, fontsize=9.0,
+    )  # fmt: skip

@@ -50,3 +50,37 @@ def test_where_nothing_was_left_to_watch_the_survivors_are_drawn_alone():
     on_it = gp.steady_state(osc).points[0].tolist()
     ax = plotting.survival_curve(gp.survival(osc, *on_it, n_periods=600, discard=0))
     assert ax.get_ylim()[1] > 1.0
+
+
+def test_several_watches_begin_at_one_and_fall_with_their_rates():
+    results = {"short": survival(1.09), "long": survival(1.219)}
+    ax = plotting.survival_curves(results, until=8000, lowest=0.02)
+    steps = {line.get_label(): line for line in ax.lines if line.get_drawstyle() == "steps-post"}
+    assert [*steps] == ["short", "long"]  # by their mean lives
+    assert sum(steps["short"].get_color()[:3]) > sum(steps["long"].get_color()[:3])
+    for name, result in results.items():
+        tau, shares = steps[name].get_data()
+        assert (tau[0], shares[0]) == (0.0, 1.0)
+        counted = result.survivors.values[result.waited.values >= 500]
+        np.testing.assert_allclose(shares[counted > 0] * result.n_watched.item(), counted[counted > 0], rtol=1e-12)
+        assert np.all(shares[counted == 0] < 0.02)
+    (fitted,) = [line for line in ax.lines if line.get_drawstyle() != "steps-post"]
+    tau, shares = fitted.get_data()
+    slope = np.polyfit(tau, np.log(shares), 1)[0]
+    assert slope == pytest.approx(-results["short"].escape_rate.item(), rel=1e-9)
+    assert (ax.get_xlim(), ax.get_ylim()[0], ax.get_yscale()) == ((0.0, 8000.0), 0.02, "log")
+
+
+def test_a_name_stands_where_its_curve_leaves_the_picture():
+    short = survival(1.09)
+    ax = plotting.survival_curves({"short": short, "long": survival(1.219)}, until=8000, lowest=0.02)
+    places = {text.get_text(): text.xy for text in ax.texts}
+    assert places["long"] == (8000.0, 1.0)
+    at, height = places["short"]
+    assert 0.02 < height < 0.05 and height == pytest.approx(np.exp(-short.escape_rate.item() * at), rel=1e-9)
+
+
+def test_what_had_nothing_left_to_watch_is_left_out():
+    osc = gp.Oscillator(damping_ratio=0.1)
+    ax = plotting.survival_curves({"direct": gp.survival(osc, [0.0, 1.0], 0.0, n_periods=600)})
+    assert (len(ax.lines), len(ax.texts), ax.get_xlim()) == (0, 0, (0.0, 100.0))
