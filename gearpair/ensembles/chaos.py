@@ -52,8 +52,8 @@ class ChaoticSets(NamedTuple):
 
     @property
     def exponents(self) -> NDArray[np.float64]:
-        """The mean exponent of the motions of each, (n,)."""
-        return self.observed.exponents / np.maximum(self.observed.motions, 1)
+        """The mean exponent of the motions of each, (n,); rounded, as a sum depends on the order of its terms."""
+        return np.round(self.observed.exponents / np.maximum(self.observed.motions, 1), 12)
 
 
 def on_sets(columns: Mapping[str, NDArray[Any]], discard: int) -> NDArray[np.bool_]:

@@ -161,21 +161,19 @@ def test_without_a_mean_force_a_motion_may_float():
     assert shifted.extremes[0] - out.extremes[0] == pytest.approx([0.1, 0.1], abs=1e-9)
     loaded = settled([osc.replace(mean_force=0.01)], [(0.1, 0.0)])
     assert loaded.status[0] != FLOATING
-    undamped = settled([osc.replace(damping_ratio=0.0)], [(0.1, 0.0)], n_transient=50)
-    assert undamped.status[0] == UNSETTLED
 
 
 def test_after_capture_the_rest_of_the_way_counts():
     """A cycle with a wide neighbourhood: the start is captured at once, and swings farther only afterwards."""
     osc = gp.Oscillator(mean_force=1.0, error_amplitude=0.05, damping_ratio=0.05)
     out = settled([osc], [(2.5, 0.0)])
-    motion = gp.trajectory(osc, 2.5, 0.0, 200, samples_per_period=1000)
+    motion = gp.trajectory(osc, 2.5, 0.0, 10, samples_per_period=20_000)
     assert out.way[0, 0] == 0.0 and out.extremes[0, 1] < 2.75
     assert out.way[0, 3] == pytest.approx(motion.x.max(), abs=1e-6) and motion.x.max() > 2.79
     straddling = gp.Oscillator(mean_force=0.66, error_amplitude=0.1826, damping_ratio=0.176, mesh_frequency=0.3985)
     out = settled([straddling], [(2.6875, -0.25)])
     assert out.way[0, 0] == 0.0 and out.extremes[0, 0] > 1.0
-    lowest = gp.trajectory(straddling, 2.6875, -0.25, 50, samples_per_period=1000).x.min()
+    lowest = gp.trajectory(straddling, 2.6875, -0.25, 10, samples_per_period=20_000).x.min()
     assert out.way[0, 2] == pytest.approx(lowest, abs=1e-6) and lowest < 1.0
 
 
