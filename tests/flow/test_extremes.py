@@ -9,7 +9,8 @@ from gearpair._flow.closed_form import TERMS, evaluate
 from gearpair._flow.newton import newton
 from gearpair._flow.observe import exponents
 from gearpair._flow.reach import begin_reach, only_turn, segment_extremes
-from gearpair._flow.walk import walk
+from gearpair._flow.records import CROSSING, REST, SEGMENT_COLUMNS, Segments
+from gearpair._flow.walk import Details, walk
 
 
 def true_range(series, end):
@@ -69,6 +70,39 @@ def test_what_stays_within_the_range_so_far_leaves_it_alone():
     assert ours(series, 0.7, low - 0.5, high + 0.5) == (low - 0.5, high + 0.5)
     assert ours(series, 0.7, low - 0.5, high - 0.1) == pytest.approx((low - 0.5, high), rel=0.0, abs=1e-14)
     assert ours(series, 0.7, low + 0.1, high + 0.5) == pytest.approx((low, high + 0.5), rel=0.0, abs=1e-14)
+
+
+WAVES = {
+    "three levels": gp.StiffnessWave((0.0, 0.3, 0.75), (1.3, 0.6, 1.0)),
+    "twelve levels": gp.StiffnessWave(tuple(np.arange(12) / 12), tuple(1.0 + 0.4 * np.sin(np.arange(12)))),
+}
+OSCILLATORS = {
+    "baseline": gp.Oscillator(),
+    "chaotic": gp.Oscillator(mesh_frequency=1.219),
+    "slow": gp.Oscillator(mesh_frequency=0.3),
+    "undamped": gp.Oscillator(damping_ratio=0.0),
+    "overdamped": gp.Oscillator(damping_ratio=1.7, mesh_frequency=0.8),
+    "unloaded": gp.Oscillator(mean_force=0.0, error_amplitude=0.6, mesh_frequency=0.7),
+    **{name: gp.Oscillator(mesh_frequency=0.7, stiffness=wave) for name, wave in WAVES.items()},
+}
+
+
+@pytest.mark.parametrize("harmonics", [(), ((2, 0.02, 0.3), (5, 0.01, 0.1), (9, 0.005, 1.0))], ids=["one", "four"])
+@pytest.mark.parametrize("name", OSCILLATORS)
+def test_range_of_a_walk_is_that_of_all_its_segments(name, harmonics):
+    """Whatever is passed over by a map, cell by cell or a block at once, has nothing new in it."""
+    osc, n, series = OSCILLATORS[name].replace(harmonics=harmonics), 3, np.empty(TERMS)
+    rng = np.random.default_rng(5)
+    for start in rng.uniform((-4.0, -3.0), (4.0, 3.0), (6, 2)):
+        segments, reach = Segments(np.empty((800, SEGMENT_COLUMNS)), np.zeros(1, np.int64)), np.empty(4)
+        walk(osc.cells, *start, n, series, None, None, Details(segments=segments))
+        assert segments.counts[0] <= len(segments.rows)
+        rows = segments.rows[: segments.counts[0]]
+        ends = np.where(rows[:, CROSSING] < 0.0, rows[:, REST], rows[:, CROSSING])
+        ranges = [true_range(row[CROSSING + 1 :], end) for row, end in zip(rows, ends, strict=True)]
+        begin_reach(reach, start[0])
+        walk(osc.cells, *start, n, series, None, reach)
+        assert tuple(reach[:2]) == pytest.approx((np.min(ranges), np.max(ranges)), rel=0.0, abs=1e-11)
 
 
 @pytest.mark.parametrize("mesh_frequency", [0.7, 1.219])
