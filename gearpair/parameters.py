@@ -29,6 +29,7 @@ STANDS_FOR = {
     **dict.fromkeys(("lowest", "highest", "chaos_near", "frequency_from", "frequency_to"), "mesh_frequency"),
     "weak_damping": "damping_ratio",
 }
+LISTS = {"long_speeds": "mesh_frequency"}  # of values of a scalar
 STARTS = ("first_start", "second_start")
 SPEEDS = ("lowest_rpm", "highest_rpm")  # none: the chapter's choice
 RANGES = (("lowest", "highest"), ("lower", "upper"), ("frequency_from", "frequency_to"), SPEEDS)
@@ -78,6 +79,9 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
     for name, scalar in {**STANDS_FOR, **stands_for}.items():
         if name in values:
             _check_as(name, partial(osc.replace, **{scalar: values[name]}))
+    for name, scalar in LISTS.items():
+        for value in values.get(name, ()):
+            _check_as(name, partial(osc.replace, **{scalar: value}))
     for low, high in RANGES:
         first, last = values.get(low), values.get(high)
         if first is not None and last is not None and not first < last:

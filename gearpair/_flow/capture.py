@@ -20,8 +20,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._kernel import Array, allocating_kernel, kernel
+from ._kernel import Array, Integers, allocating_kernel, kernel
 from .cells import Cells
+from .closed_form import TERMS
 from .growth import Growth
 from .newton import derivative
 from .tangent import apply, set_identity
@@ -85,6 +86,17 @@ def surround(cells: Cells, x: float, v: float, period: int, owner: float, rows: 
                     rows[i, SPREAD] = spread[0]
                 return True
     return False
+
+
+@allocating_kernel
+def surround_rows(cells: Cells, points: Array, periods: Integers, rows: Array) -> int:
+    """Neighbourhoods of the cycles through `points` (n, 2), filled into `rows`: how many there are."""
+    series = np.empty(TERMS)
+    filled = 0
+    for i in range(len(points)):
+        if periods[i] > 0 and surround(cells, points[i, 0], points[i, 1], periods[i], float(i), rows[filled:], series):
+            filled += periods[i]
+    return filled
 
 
 class Norms(NamedTuple):

@@ -15,7 +15,7 @@ import numpy as np
 from ._kernel import Array, Integers, allocating_kernel, kernel
 from .cells import Coefficients
 from .closed_form import AMPLITUDE, ORDER, PHASE
-from .settle import Lanes, coefficients_of
+from .states import Lanes, coefficients_of
 
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
 STAGES = np.array(

@@ -4,8 +4,8 @@ What is gathered on the way is handed over as accumulators, each None where it i
 leaves it out. ``m`` is the monodromy matrix (`tangent`), ``reach`` the range of X with the contacts (`reach`); what
 needs every segment is in a `Details`.
 
-A block of cells, and then a cell, is followed by its map where the motion certainly stays in its region. A `reach`
-asks for cells whose bounds it holds; details ask for every segment.
+A block of cells, and then a cell, is followed by its map where the motion certainly stays in its region and, with a
+`reach`, within its range. Details ask for every segment.
 """
 
 from typing import NamedTuple
@@ -94,11 +94,11 @@ def inlined_walk(
     place = Place(x, v, first_region(cells, x, v), 0)
     for period in range(n_periods):
         place = Place(place.x, place.v, place.region, 0)
-        if reach is None and details is None:
+        if details is None:
             for b in range(cells.block_width.size):
                 row = cells.block_maps[b, place.region + 1]
-                certain, x, v, _low, _high = follow_row(row, cells.block_width[b], place.x, place.v, place.region)
-                if certain:
+                certain, x, v, low, high = follow_row(row, cells.block_width[b], place.x, place.v, place.region)
+                if certain and holds(reach, low, high):
                     apply_map(m, row)
                     place = Place(x, v, place.region, place.events)
                     continue
@@ -130,7 +130,7 @@ def walk_cells(
     x, v, region, events = place
     first, last = span
     for j in range(first, last):
-        if details is None and (reach is not None or last - first > 1):
+        if details is None and last - first > 1:
             row = cells.maps[j, region + 1]
             certain, x1, v1, low, high = follow_row(row, cells.clock[j, WIDTH], x, v, region)
             if certain and holds(reach, low, high):

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._flow.capture import COLUMNS
-from gearpair._flow.settle import APERIODIC, FLOATING, PERIODIC, UNSETTLED, Known, Settled, surround_rows
+from gearpair._flow.capture import COLUMNS, surround_rows
+from gearpair._flow.states import APERIODIC, FLOATING, PERIODIC, UNSETTLED, Known, Settled
 from gearpair.ensembles.chaos import ChaoticSets, chained, chaotic_sets, judged_status, observed_in, scouted, sets_of
 from gearpair.ensembles.datasets import settled_columns
 from gearpair.motion.impacts import impact_codes

@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._flow.settle import APERIODIC, GONE, PERIODIC, SAME_EXPONENT, SAME_RANGE, TRANSIENT
+from gearpair._flow.settle import SAME_EXPONENT, SAME_RANGE
+from gearpair._flow.states import APERIODIC, GONE, PERIODIC, TRANSIENT
 from gearpair.ensembles.escape_rates import EscapeRate, counted_rate
 
 # Motions whose smallest X, largest X and exponent, in these steps, are equal or next to one another are on one set. A
@@ -82,7 +83,7 @@ def observed_in(columns: Mapping[str, NDArray[Any]], discard: int) -> Observed:
 
 
 def scouted(lasting: NDArray[np.float64]) -> Observed:
-    """What is known beforehand to last (see `gearpair._flow.settle.Known`), of motions that are not counted again."""
+    """What is known beforehand to last (see `gearpair._flow.states.Known`), of motions that are not counted again."""
     columns = dict(zip(NAMES, lasting[:, :3].T, strict=True))
     none, watched = np.zeros(len(lasting), np.int64), (lasting[:, 3] > 0).astype(np.int64)
     cells = cells_of(columns, np.ones(len(lasting), bool)).astype(np.int64)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_number
-from gearpair._flow.settle import PERIODIC, Settled
+from gearpair._flow.states import PERIODIC, Settled
 from gearpair.motion.impacts import IMPACT_STATES, impact_codes
 from gearpair.motion.settling import STATUSES, Status
 from gearpair.oscillator import Oscillator

@@ -12,7 +12,8 @@ from tqdm import tqdm
 from gearpair._checks import check_count, check_number
 from gearpair._cores import on_all_cores
 from gearpair._flow.capture import COLUMNS, OWNER
-from gearpair._flow.settle import CAPTURED, GONE, NOT_RUN, PERIODIC, Known, Settled
+from gearpair._flow.settle import CAPTURED
+from gearpair._flow.states import GONE, NOT_RUN, PERIODIC, Known, Settled
 from gearpair._flow.walk import ESCAPED, OK
 from gearpair._flow.watch import Watched, watch_starts
 from gearpair.ensembles.capture import known_among, numbered, scouts

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._flow.settle import Known
+from gearpair._flow.states import Known
 from gearpair.ensembles.capture import (
     Found,
     Numbered,

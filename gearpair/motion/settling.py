@@ -15,7 +15,8 @@ from gearpair._checks import check_count, check_options
 from gearpair._cores import on_all_cores
 from gearpair._flow.capture import COLUMNS
 from gearpair._flow.measures import N_MEASURES
-from gearpair._flow.settle import NOT_RUN, Known, Lanes, Limits, Settled, observed_periods, settle_lanes
+from gearpair._flow.settle import observed_periods, settle_lanes
+from gearpair._flow.states import NOT_RUN, Known, Lanes, Limits, Settled
 from gearpair.motion.outcome import Outcome
 from gearpair.oscillator import Oscillator
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._equality import equal_by_value
-from gearpair._flow.settle import Settled
+from gearpair._flow.states import Settled
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.names import Motion
 from gearpair.motion.settling import ONE, STATUSES, SettleOptions, Status, settle_batch

@@ -8,7 +8,7 @@ from benchmarks.labels import Case, cases, compare
 from gearpair import _cores
 from gearpair._flow.capture import COLUMNS, OWNER, QVV, QXV, QXX, inside, surround
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.settle import APERIODIC, GONE, PERIODIC, TRANSIENT
+from gearpair._flow.states import APERIODIC, GONE, PERIODIC, TRANSIENT
 from gearpair.ensembles.capture import (
     POOL,
     found_in,

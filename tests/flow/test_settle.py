@@ -4,21 +4,9 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair._flow.settle import (
-    APERIODIC,
-    CAPPED,
-    CAPTURED,
-    EXHAUSTED,
-    FLOATING,
-    GONE,
-    NOT_RUN,
-    PERIODIC,
-    PROMISING,
-    UNSETTLED,
-    Limits,
-    observed_periods,
-    settle_lanes,
-)
+from gearpair._flow.settle import CAPTURED, observed_periods, settle_lanes
+from gearpair._flow.stable_orbits import PROMISING
+from gearpair._flow.states import APERIODIC, CAPPED, EXHAUSTED, FLOATING, GONE, NOT_RUN, PERIODIC, UNSETTLED, Limits
 from gearpair.ensembles.capture import known_attractors
 from gearpair.motion.settling import SettleSettings, blank, lanes_of, nothing_known
 

@@ -4,7 +4,7 @@ gearpair.define("readout", ["measures", "plot"], function ({ IMPACT_NAMES }, { s
 
   const MEANINGS = {
     periodic: "The motion has settled on a stable periodic orbit.",
-    aperiodic: "The largest Lyapunov exponent is positive, well outside its uncertainty: chaos.",
+    aperiodic: "Chaos for as long as it was followed: the largest Lyapunov exponent is positive, well outside its uncertainty.",
     unsettled: "Neither periodic nor of a resolved positive exponent; without damping there is nothing to settle on.",
     escaped: "The motion grows without bound: start nearer to the play, or raise the damping.",
     capped: "Too many impacts in one mesh period: this is outside what a gear can do.",
