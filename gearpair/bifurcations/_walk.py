@@ -52,8 +52,8 @@ class End(Outcome):
     )
     LOST = (
         "lost",
-        "no further step converged, as at a kink, which continue_bifurcation passes with over_kinks=True, or at a "
-        "degenerate point: continue from an orbit beyond it, or change another parameter a little",
+        "no further step converged, as at a degenerate point, or at a kink, which the curve of a bifurcation passes "
+        "unless over_kinks=False: continue from an orbit beyond it, or change another parameter a little",
     )
 
 

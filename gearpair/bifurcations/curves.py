@@ -113,7 +113,7 @@ def continue_bifurcation(
     *,
     largest_step: float = SIZES.largest,
     max_steps: int = 500,
-    over_kinks: bool = False,
+    over_kinks: bool = True,
 ) -> BifurcationCurve:
     """The curve of a bifurcation in two parameters, in both directions.
 
@@ -127,14 +127,16 @@ def continue_bifurcation(
     largest_step, max_steps
         As in `continue_orbit`; the same errors are raised.
     over_kinks : bool
-        Go on where the curve has a corner too sharp to be walked around, and name a grazing that ends it.
+        Go on where the curve has a corner too sharp to be walked around, and name a grazing that ends it; otherwise
+        both end it as ``"lost"``.
 
     Notes
     -----
     The orbit's two equations are extended by the function whose zero is the bifurcation, see `continue_orbit`, and
     followed by pseudo-arclength. The multipliers have a kink where X passes +-1 just as the stiffness switches, as
-    where a section point passes X = 1, and so has the curve. Where a fold or a flip also grazes, the curve comes from
-    the side with fewer contacts and goes on along the grazing, from which it parts like a parabola.
+    where a section point passes X = 1, and so has the curve: it goes on along its other half. Where a fold or a flip
+    also grazes, the curve comes from the side with fewer contacts and goes on along the grazing, from which it parts
+    like a parabola.
 
     Examples
     --------

@@ -124,15 +124,18 @@ def test_over_a_kink_a_flip_goes_on_as_it_is_located_beyond():
     """Where the section point passes X = 1 the curve has a corner; at smaller damping the flip is located anew."""
     flip = swapped_flip((1.007, -0.34), 1, 0.81, 0.83)
     bounds = {"mesh_frequency": (0.6, 1.8), "damping_ratio": (0.0194, 0.06)}
-    stopped = gp.continue_bifurcation(flip, bounds)
-    assert stopped.ends == ("lost", "bound") and "over_kinks=True" in stopped.ends[0].remedy
+    stopped = gp.continue_bifurcation(flip, bounds, over_kinks=False)
+    assert stopped.ends == ("lost", "bound") and "over_kinks=False" in stopped.ends[0].remedy
     assert stopped.values[0] == pytest.approx([0.816995, 0.0194159], abs=1e-6)
     assert stopped.points[0, 0] == pytest.approx(1.0, abs=1e-5)
-    curve = gp.continue_bifurcation(flip, bounds, over_kinks=True)
+    curve = gp.continue_bifurcation(flip, bounds)
     assert curve.ends == ("bound", "bound") and np.max(np.abs(curve.residual)) < 1e-10
     assert curve.values[0, 1] == pytest.approx(0.0194, abs=1e-15)
     beyond = swapped_flip((1.008, -0.34), 1, 0.815, 0.83, 0.0194)
     assert curve.values[0, 0] == pytest.approx(beyond.value, abs=1e-9)
+    assert beyond.value == pytest.approx(0.820441, abs=1e-6)
+    before = gp.continue_bifurcation(flip, bounds | {"damping_ratio": (0.0195, 0.06)})
+    assert before.values[0].tolist() == pytest.approx([0.817056, 0.0195], abs=1e-6)
     # No part of it is walked twice: damping falls all the way to the lower bound.
     assert np.all(np.diff(curve.values[:, 1]) > 0.0)
 
@@ -143,8 +146,8 @@ def test_over_a_kink_a_fold_is_one_curve_from_either_of_its_folds(printed_branch
     folds = [b for b in printed_branch.bifurcations if b.kind == "fold"]
     pair = [min(folds, key=lambda b: abs(b.value - near)) for near in (1.1907, 0.8070)]
     for fold in pair:
-        assert "lost" in gp.continue_bifurcation(fold, bounds).ends
-        curve = gp.continue_bifurcation(fold, bounds, over_kinks=True)
+        assert "lost" in gp.continue_bifurcation(fold, bounds, over_kinks=False).ends
+        curve = gp.continue_bifurcation(fold, bounds)
         assert curve.ends == ("bound", "bound")
         assert sorted(curve.values[[0, -1], 0]) == pytest.approx([0.79311787, 1.1413738], abs=1e-7)
 
@@ -155,8 +158,8 @@ def test_two_flips_that_end_together_end_where_the_orbit_also_grazes():
     On the side with one contact more the gap of that contact grows with the square of the distance from there.
     """
     bounds = {"mesh_frequency": (0.4, 1.9), "damping_ratio": (0.001, 0.1)}
-    fewer = gp.continue_bifurcation(swapped_flip((0.011, 0.074), 2, 0.862, 0.871), bounds, over_kinks=True)
-    more = gp.continue_bifurcation(swapped_flip((0.860, -0.1755), 2, 1.432, 1.4366), bounds, over_kinks=True)
+    fewer = gp.continue_bifurcation(swapped_flip((0.011, 0.074), 2, 0.862, 0.871), bounds)
+    more = gp.continue_bifurcation(swapped_flip((0.860, -0.1755), 2, 1.432, 1.4366), bounds)
     assert fewer.ends[-1] == "grazes" == more.ends[0]
     assert "codimension two" in more.ends[0].remedy
     point = fewer.values[-1]
