@@ -151,11 +151,10 @@ class SettleSettings:
         return UNLIMITED if self.most_work is None else self.most_work // max(n, 1)
 
 
-# What is asked of a motion, by purpose: one, or a sweep, in full; many at a time; a map, a third of whose points may be
-# chaotic; a chart, whose verdict on chaos needs no more digits; periods alone, where chaos is none of them.
+# What is asked of a motion, by purpose: one, or a sweep, in full; many at a time; a chart, whose verdict on chaos needs
+# no more digits; periods alone, where chaos is none of them.
 ONE = SettleSettings()
 MANY = SettleSettings(n_exponent=500, n_samples=1)
-MAP = replace(MANY, n_watch=12_000)
 CHART = SettleSettings(max_period=16, n_exponent=300, n_samples=16)
 PERIODS = SettleSettings(n_exponent=20, n_watch=0, n_samples=1)
 

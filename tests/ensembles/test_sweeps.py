@@ -5,7 +5,9 @@ import pytest
 
 import gearpair as gp
 from gearpair import _cores
+from gearpair.ensembles import sweeps
 from gearpair.motion import settling
+from gearpair.motion.settling import MANY
 
 BASELINE = gp.Oscillator()
 QUICK = {"n_transient": 300, "n_exponent": 200}
@@ -139,3 +141,24 @@ def test_blocks_cover_everything_once_and_errors_come_through():
 
     with pytest.raises(ValueError, match="in a block"):
         _cores.on_all_cores(fails, (), 9, 2)
+
+
+def test_a_large_map_watches_in_full_beside_what_left_its_chaos(monkeypatch):
+    """Around the speeds whose chaos ends: few labels differ from those of a full watch, at a part of its price."""
+    axes = {"damping_ratio": [0.02, 0.021], "mesh_frequency": np.linspace(1.4, 1.66, 27)}
+    full = gp.parameter_map(BASELINE, axes)
+    monkeypatch.setattr(sweeps, "IN_FULL", 0)
+    brief = gp.parameter_map(BASELINE, axes)
+    longest = MANY.before_watch(BASELINE) + MANY.n_watch
+    shortest = MANY.before_watch(BASELINE) + MANY.n_watch // sweeps.FIRST_LOOK
+    chaos = brief.status.values == "aperiodic"
+    assert set(brief.lasted.values[chaos].tolist()) == {shortest, longest}
+    assert set(full.lasted.values[full.status.values == "aperiodic"].tolist()) == {longest}
+    left = ~chaos & (brief.lasted.values > MANY.before_watch(BASELINE))
+    for i, j in np.argwhere(chaos & (brief.lasted.values == longest)):
+        assert left[i, max(0, j - 2) : j + 3].any()
+    for i, j in np.argwhere(chaos & (brief.lasted.values == shortest)):
+        assert not left[i, max(0, j - 2) : j + 3].any()
+    assert np.sum(brief.status.values != full.status.values) <= 3
+    line = gp.parameter_map(BASELINE, {"mesh_frequency": [1.219]})
+    assert line.lasted.values.tolist() == [longest]
