@@ -99,16 +99,16 @@ def test_a_positive_exponent_is_aperiodic_and_its_range_is_that_of_the_span():
 def test_a_motion_that_settles_while_it_is_watched_is_periodic_and_says_when():
     """From (0, -1) the chaos at 1.09 goes on for some hundred mesh periods; the walk to its end is that of the map."""
     osc = CHAOTIC.replace(mesh_frequency=1.09)
-    late = settled([osc], [(0.0, -1.0)], n_transient=50, n_watch=20_000)
+    late = settled([osc], [(0.0, -1.0)], n_transient=20, n_exponent=40, n_watch=20_000)
     early = settled([osc], [(0.0, -1.0)], n_transient=20_000)
     for name in ("status", "period", "lasted", "way", "points", "extremes"):
         np.testing.assert_allclose(getattr(late, name), getattr(early, name), rtol=0.0, atol=1e-12)
-    assert late.status[0] == PERIODIC and late.lasted[0] == late.way[0, 0] > 50 + observed_periods(200)
+    assert late.status[0] == PERIODIC and late.lasted[0] == late.way[0, 0] > 20 + observed_periods(40)
     assert late.chaos[0, 2] > 0.0 and np.isnan(early.chaos).all()
     x, v = gp.stroboscopic_map(osc, 0.0, -1.0, int(late.lasted[0]) + 400)
     assert np.abs(late.points[0] - (x, v)).max(axis=1).min() < 1e-9
-    short = settled([osc], [(0.0, -1.0)], n_transient=50, n_watch=0)
-    assert (short.status[0], short.lasted[0]) == (APERIODIC, 50 + observed_periods(200))
+    short = settled([osc], [(0.0, -1.0)], n_transient=20, n_exponent=40, n_watch=0)
+    assert (short.status[0], short.lasted[0]) == (APERIODIC, 20 + observed_periods(40))
 
 
 def test_a_motion_on_a_set_that_is_known_to_last_is_not_watched():
@@ -155,13 +155,13 @@ def test_after_capture_the_rest_of_the_way_counts():
     """A cycle with a wide neighbourhood: the start is captured at once, and swings farther only afterwards."""
     osc = gp.Oscillator(mean_force=1.0, error_amplitude=0.05, damping_ratio=0.05)
     out = settled([osc], [(2.5, 0.0)])
-    motion = gp.trajectory(osc, 2.5, 0.0, 10, samples_per_period=20_000)
+    motion = gp.trajectory(osc, 2.5, 0.0, 3, samples_per_period=20_000)
     assert out.way[0, 0] == 0.0 and out.extremes[0, 1] < 2.75
     assert out.way[0, 3] == pytest.approx(motion.x.max(), abs=1e-6) and motion.x.max() > 2.79
     straddling = gp.Oscillator(mean_force=0.66, error_amplitude=0.1826, damping_ratio=0.176, mesh_frequency=0.3985)
     out = settled([straddling], [(2.6875, -0.25)])
     assert out.way[0, 0] == 0.0 and out.extremes[0, 0] > 1.0
-    lowest = gp.trajectory(straddling, 2.6875, -0.25, 10, samples_per_period=20_000).x.min()
+    lowest = gp.trajectory(straddling, 2.6875, -0.25, 3, samples_per_period=20_000).x.min()
     assert out.way[0, 2] == pytest.approx(lowest, abs=1e-6) and lowest < 1.0
 
 
