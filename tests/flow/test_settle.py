@@ -108,7 +108,7 @@ def test_a_motion_that_settles_while_it_is_watched_is_periodic_and_says_when():
     x, v = gp.stroboscopic_map(osc, 0.0, -1.0, int(late.lasted[0]) + 400)
     assert np.abs(late.points[0] - (x, v)).max(axis=1).min() < 1e-9
     short = settled([osc], [(0.0, -1.0)], n_transient=20, n_exponent=40, n_watch=0)
-    assert (short.status[0], short.lasted[0]) == (APERIODIC, 20 + observed_periods(40))
+    assert short.status[0] in (APERIODIC, UNSETTLED) and short.lasted[0] == 20 + observed_periods(40)
 
 
 def test_a_motion_on_a_set_that_is_known_to_last_is_not_watched():
