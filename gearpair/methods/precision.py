@@ -184,9 +184,12 @@ def plain_sweep(
 
 
 def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:
-    """At which values a diagram shows disorder though the motion is periodic.
+    """At which values a diagram shows disorder though the motion is periodic in the end.
 
     `exact` is of `sweep`; `drawn` of `runge_kutta_sweep` or `plain_sweep` at the same values.
+
+    Not all of it is the integrator's own: a chaotic transient that outlasts the periods which the diagram discards is
+    disordered in truth. `plain_sweep` shows that part too.
 
     Examples
     --------
@@ -204,7 +207,7 @@ def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:
 
 
 def disorder_table(exact: xr.Dataset, drawn: Mapping[str, xr.Dataset]) -> Table:
-    """How often diagrams, by name, show disorder where the motion is periodic, and a period where it is not.
+    """How often diagrams, by name, show disorder where the motion is periodic in the end, and a period where it is not.
 
     Datasets as for `numerical_chaos`; shares of the values as `coarse_share` writes them.
 
@@ -229,14 +232,14 @@ def disorder_table(exact: xr.Dataset, drawn: Mapping[str, xr.Dataset]) -> Table:
 def coarse_share(where: ArrayLike) -> str:
     """The share of true values, so coarse that rounding on another machine hardly changes it.
 
-    To the nearest 10%; ``"under 10%"`` and ``"over 90%"`` near the ends, ``"all"`` if all are.
+    To the nearest 5%; ``"under 10%"`` and ``"over 90%"`` near the ends, ``"all"`` if all are.
 
     Examples
     --------
     >>> coarse_share([True, False, False]), coarse_share([True] * 29 + [False]), coarse_share([False])
-    ('30%', 'over 90%', 'under 10%')
+    ('35%', 'over 90%', 'under 10%')
     """
     share = float(np.mean(np.asarray(where, dtype=bool)))
     if share == 1.0:
         return "all"
-    return "under 10%" if share < 0.1 else "over 90%" if share > 0.9 else f"{round(share, 1):.0%}"
+    return "under 10%" if share < 0.1 else "over 90%" if share > 0.9 else f"{round(20.0 * share) / 20.0:.0%}"

@@ -152,7 +152,9 @@ def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) 
 
 
 def exponents(sweep: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, label: str | None = None) -> Axes:
-    """The largest Lyapunov exponent along a sweep, with its standard error and the line at zero.
+    """The largest Lyapunov exponent along a sweep, within two standard errors, and the line at zero.
+
+    Shaded where it is positive: there the motion had not settled when the watch ended.
 
     Examples
     --------
