@@ -45,7 +45,8 @@ def speed_chart(
         Starts at each speed, spread evenly over a rectangle of X and X' about the backlash and the static deflection;
         they find the motions that no run meets, and what share of the starts leads to each.
     n_transient : int, optional
-        Mesh periods at most before a motion is judged; `gearpair.motion.transient_periods` when not given.
+        Mesh periods at most before a motion is judged; `gearpair.motion.transient_periods` when not given. One that has
+        not settled then is watched for 20 000 more before it is called chaos.
     locate_jumps : bool
         Whether to locate by continuation the speeds at which a run leaves a motion.
     progress : bool
@@ -67,6 +68,9 @@ def speed_chart(
     The dynamic transmission error is ``r_b1 theta1 - r_b2 theta2 = x + e``. The mesh force is the elastic one,
     ``k_h f(x)``; the tooth force is the share of it that the most loaded pair of teeth carries (nan where the drive
     has no `mesh`). The dynamic factor is the largest mesh force over the mean force.
+
+    All chaos of a speed counts as one motion, and is measured over 200 mesh periods. Chaos that ends, but not while it
+    is watched, counts as chaos: a drive can be in it for seconds, and bears its loads.
 
     Examples
     --------

@@ -55,7 +55,8 @@ def find_jumps(up: list[SteadyState], down: list[SteadyState]) -> list[Jump]:
     -----
     Between two speeds of a run whose motions differ, the branch of the first motion is followed towards the second
     speed (pseudo-arclength continuation): the jump is where it first loses its stability. A change that is continuous,
-    a period doubling or an impact that sets in, is no jump.
+    a period doubling or an impact that sets in, is no jump. Between two motions that are not periodic none is looked
+    for.
 
     Examples
     --------

@@ -30,7 +30,8 @@ def measure_motion(drive: GearDrive, state: SteadyState) -> dict[str, float]:
     Notes
     -----
     Forces on the mesh, times apart, impacts and velocities are exact; the dynamic transmission error and the force on
-    one pair of teeth are of 256 samples a mesh period.
+    one pair of teeth are of 256 samples a mesh period. A motion that is not periodic is measured over 200 mesh periods:
+    a longer time may hold a harder blow.
 
     Examples
     --------
@@ -78,7 +79,7 @@ def _largest_tooth_force(drive: GearDrive, state: SteadyState, x: np.ndarray) ->
 
 
 def same_motion(a: SteadyState, b: SteadyState) -> bool:
-    """Whether two settled motions of one oscillator are one; those that are not periodic are, by their status."""
+    """Whether two settled motions of one oscillator are one; those that are not periodic are, if of one status."""
     if a.status != b.status or a.period != b.period:
         return False
     return a.period is None or lies_on(a.points[0], b.points)

@@ -9,18 +9,21 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count, check_number
+from gearpair._flow.settle import TRANSIENT
 from gearpair.ensembles.capture import known_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
 from gearpair.ensembles.planes import ATTRACTOR_COLUMNS
 from gearpair.ensembles.shares import random_starts
 from gearpair.motion.settling import MANY, SettleOptions, SettleSettings, settle_batch
 from gearpair.oscillator import Oscillator
+from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
     import xarray as xr
 
 SMALL_STEPS = 32  # in which a motion that changes much from one value to the next is carried there
 ARRIVED = 1e-3  # how near, in sizes, to the motion found there
+ESCAPES, LINGERS = -2, -3  # what an attractor that has ended tips to where that is no attractor
 
 
 def continue_attractors(
@@ -53,7 +56,9 @@ def continue_attractors(
         Over ``(parameter, attractor)``: ``share`` (nan where the attractor was not found), ``attractor_status``,
         ``attractor_period``, ``attractor_impact_state``, ``attractor_x_min``, ``attractor_x_max``,
         ``attractor_exponent``, and ``tips_to``: at the first value without the attractor, the number of the one that
-        its motion goes over to (-2 where it escapes), -1 elsewhere. Attractors are numbered as they turn up.
+        its motion goes over to; `ESCAPES` (-2) where it escapes; `LINGERS` (-3) where it is chaotic still, on a set
+        that others have left; -1 elsewhere. Attractors are numbered as they turn up. Over ``parameter``:
+        ``transient_share`` of the starts that are transients still, and belong to no attractor.
 
     Notes
     -----
@@ -61,6 +66,9 @@ def continue_attractors(
     first starts of the next. An attractor goes on as the one that its own motion settles on, if that is near, or if a
     periodic motion carried there in small steps is near at each of them. Where it is not, the attractor has ended, and
     its motion has tipped. One that turns up again takes its old number, if it is near where it was last seen.
+
+    A chaotic attractor may end without a new one near: from a crisis on its set is a transient, which some starts have
+    left and others have not yet.
 
     Examples
     --------
@@ -75,6 +83,7 @@ def continue_attractors(
     entries: list[tuple[int, int, dict[str, float]]] = []  # row, number, what there is to tell
     places: dict[int, NDArray[np.float64]] = {}  # number -> the extremes it was last seen with
     points: dict[int, NDArray[np.float64]] = {}  # number at the value before -> a point of it
+    lingering = np.zeros(len(checked))
     for i, each in enumerate(oscillators):
         before = list(points)
         here = np.concatenate([starts, *(points[number][np.newaxis] for number in before)])
@@ -84,7 +93,9 @@ def continue_attractors(
         result = numbered(settled_columns(out), settings.before_watch(each), known.lasting)
         labels, table = result.columns["attractor"], result.table
         extremes = np.column_stack([table["x_min"], table["x_max"]])
-        leads_to = dict(zip(before, labels[n:].tolist(), strict=True))
+        still = result.columns["status"] == TRANSIENT
+        lingering[i] = still[:n].mean()
+        leads_to = dict(zip(before, np.where(still, LINGERS, labels)[n:].tolist(), strict=True))
         followed = {
             number
             for number, k in leads_to.items()
@@ -107,6 +118,7 @@ def continue_attractors(
             columns[name][i, number] = value
     named = {name if name in ("share", "tips_to") else f"attractor_{name}": column for name, column in columns.items()}
     variables = variables_of(named, (parameter, "attractor"), shape)
+    variables["transient_share"] = (parameter, lingering, attributes("transient_share"))
     return dataset(osc, variables, {parameter: checked}).assign_coords(attractor=np.arange(shape[1]))
 
 
@@ -141,8 +153,8 @@ def _matched(
 ) -> tuple[list[int], dict[int, int]]:
     """Numbers for the attractors found here, and for each number that has ended the one that it tips to.
 
-    `leads_to` has, for each number of the value before, the attractor found here that its motion settles on, or -1;
-    the numbers `followed` there are it, near or not.
+    `leads_to` has, for each number of the value before, the attractor found here that its motion settles on, -1 where
+    it settles on none, or `LINGERS`; the numbers `followed` there are it, near or not.
     """
     given = [-1] * len(extremes)
     apart = {number: _apart(extremes, place) for number, place in places.items()}
@@ -156,4 +168,4 @@ def _matched(
                 (apart[number][k], number) for number in places if number not in given and number not in ended
             )
             given[k] = back[0][1] if back and back[0][0] <= nearest else max([*places, *given, -1]) + 1
-    return given, {number: given[k] if k >= 0 else -2 for number, k in ended.items()}
+    return given, {number: given[k] if k >= 0 else LINGERS if k == LINGERS else ESCAPES for number, k in ended.items()}

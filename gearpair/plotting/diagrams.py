@@ -304,8 +304,8 @@ def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
 def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """The shares of the attractors along a parameter, stacked, with a triangle at each tipping point.
 
-    One filled step for each attractor, cut where its kind of motion changes and coloured by it, and a triangle at
-    the top where one has tipped to another.
+    One filled step for each attractor, cut where its kind of motion changes and coloured by it; above them one for the
+    starts that are transients still; and a triangle at the top where an attractor has ended.
 
     Examples
     --------
@@ -319,14 +319,16 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
     values = result[parameter].values
     between = 0.5 * (values[1:] + values[:-1])
     edges = np.concatenate([values[:1], between, values[-1:]])
-    below = np.zeros(len(values))
-    present = set()
-    for number in range(result.sizes["attractor"]):
-        own = result.isel(attractor=number)
-        above = below + np.nan_to_num(own.share.values)
-        columns = own.attractor_status.values, own.attractor_period.values, above > below
-        kinds = [Motion(str(a), int(p) or None) if seen else None for a, p, seen in zip(*columns, strict=True)]
-        for kind, group in groupby(range(len(values)), kinds.__getitem__):
+    kinds = [
+        [Motion(str(status), int(period) or None) for status, period in zip(*columns, strict=True)]
+        for columns in zip(result.attractor_status.values.T, result.attractor_period.values.T, strict=True)
+    ]
+    shares = [*np.nan_to_num(result.share.values.T), result.transient_share.values]
+    below, present = np.zeros(len(values)), set()
+    for share, own in zip(shares, [*kinds, [Motion(Status.TRANSIENT)] * len(values)], strict=True):
+        above = below + share
+        seen = [kind if more else None for kind, more in zip(own, share > 0.0, strict=True)]
+        for kind, group in groupby(range(len(values)), seen.__getitem__):
             if kind is None:
                 continue
             run = list(group)

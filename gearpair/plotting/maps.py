@@ -15,12 +15,14 @@ from matplotlib.patches import Patch
 from gearpair.ensembles.planes import attractor_motions
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import IMPACT_NAMES, Motion, motions_of
+from gearpair.motion.settling import Status
 from gearpair.motion.steady import SteadyState
 from gearpair.plotting.style import add_motion_legend, motion_colour, new_axes, shade_backlash
 from gearpair.quantities import axis_label
 
 Colour = tuple[float, float, float]
-MOST_NAMED = 8  # attractors that a legend names one by one
+MOST_NAMED = 8  # motions that a legend names one by one
+LINGERING = Motion(Status.TRANSIENT)
 
 # The harsher the darker.
 IMPACT_COLOURS: Mapping[str, str] = {
@@ -46,9 +48,10 @@ def attractor_colours(result: xr.Dataset) -> list[Colour]:
 
 
 def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
-    """Which attractor each start reaches, a second motion of a kind paler; starts that do not stay bounded are white.
+    """Which attractor each start reaches, a second motion of a kind paler; starts that reach none are white.
 
-    The legend above the axes names the attractors; where they are many, their colours.
+    Of these, chaotic transients, which reach none yet, have a colour of their own. The legend above the axes names
+    the attractors and the transients; where the attractors are many, their colours.
 
     Examples
     --------
@@ -59,7 +62,11 @@ def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -
     """
     ax = new_axes(ax, 5.0)
     motions, colours = attractor_motions(result), attractor_colours(result)
-    _map(ax, result, result.attractor.values + 1, [(1.0, 1.0, 1.0), *colours])
+    still = result.status.values == Status.TRANSIENT
+    if still.any():
+        motions, colours = [*motions, LINGERING], [*colours, to_rgb(motion_colour(LINGERING))]
+    numbers = np.where(still, len(motions), result.attractor.values + 1)
+    _map(ax, result, numbers, [(1.0, 1.0, 1.0), *colours])
     if legend and len(motions) > MOST_NAMED:
         add_motion_legend(ax, motions)
     elif legend:

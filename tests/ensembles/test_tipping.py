@@ -5,7 +5,7 @@ import pytest
 
 import gearpair as gp
 from gearpair import ensembles, motion
-from gearpair.ensembles.tipping import _matched
+from gearpair.ensembles.tipping import ESCAPES, LINGERS, _matched
 
 
 def test_the_nearest_takes_the_number_and_the_other_tips_to_it():
@@ -21,7 +21,8 @@ def test_one_that_is_far_is_new_one_that_comes_back_takes_its_number_and_escape_
     given, ended = _matched({0: 0}, places, np.array([[0.9, 1.9], [-2.1, 2.0]]), 0.3)
     assert given == [2, 1]
     assert ended == {0: 2}
-    assert _matched({0: -1}, places, np.empty((0, 2)), 0.3) == ([], {0: -2})
+    assert _matched({0: -1}, places, np.empty((0, 2)), 0.3) == ([], {0: ESCAPES})
+    assert _matched({0: LINGERS}, places, np.empty((0, 2)), 0.3) == ([], {0: LINGERS})
 
 
 def test_near_is_a_share_of_the_size_and_a_motion_that_was_followed_goes_on():
@@ -42,6 +43,19 @@ def test_a_motion_that_grows_without_bound_is_one_and_does_not_tip():
     assert np.all(grown.attractor_period == 1) and np.all(grown.share > 0.0) and np.all(grown.tips_to == -1)
     assert grown.attractor_x_min[0] > -19.0 and grown.attractor_x_min[-1] < -1200.0
     assert not np.any(shares.tips_to == number)
+
+
+def test_chaos_that_becomes_a_transient_is_no_attractor_any_more_and_does_not_escape():
+    """From 1.0925 to 1.09 chaos begins to end, by a mean life of 2000: short of it some starts are chaotic still."""
+    how = {"n": 60, "n_watch": 2000}
+    shares = ensembles.continue_attractors(gp.Oscillator(), "mesh_frequency", [1.1095, 1.09], **how)
+    (chaos,) = np.flatnonzero(shares.attractor_status[0] == "aperiodic")
+    assert shares.share[0, chaos] > 0.3 and shares.transient_share[0] == 0.0
+    assert np.isnan(shares.share[1, chaos]) and not np.any(shares.attractor_status[1] == "aperiodic")
+    assert 0.05 < shares.transient_share[1] < 0.95
+    np.testing.assert_allclose(shares.share.sum("attractor") + shares.transient_share, 1.0)
+    assert int(shares.tips_to[1, chaos]) in (LINGERS, *np.flatnonzero(shares.share[1] > 0.0))
+    assert not np.any(shares.tips_to == ESCAPES)
 
 
 def test_shares_sum_to_one_and_follow_the_basins():

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import gearpair as gp
 from gearpair import ensembles
@@ -66,6 +67,47 @@ def test_basin_entropy_leaves_out_boxes_that_do_not_fit():
     assert ensembles.basin_entropy(plane, box=3).entropy == 0.0
 
 
+def test_starts_whose_fate_is_not_known_are_no_colour():
+    """Two colours in equal parts in every box: log 2, not more by a third; a start in four is left out, and told."""
+    labels = np.indices((16, 16)).sum(axis=0) % 2
+    labels[::4, ::2] = labels[2::4, 1::2] = -1
+    got = ensembles.basin_entropy(labels, box=4)
+    assert got.boundary_entropy == pytest.approx(np.log(2))
+    assert ensembles.basin_entropy(labels + 1, box=4).boundary_entropy > 1.05
+    assert got.left_out == 0.25
+    empty = labels.copy()
+    empty[:, :4] = -1
+    assert ensembles.basin_entropy(empty, box=4).boundary_boxes == 1.0  # boxes without any start left do not count
+
+
+def plane_of(status: np.ndarray, attractor: np.ndarray) -> xr.Dataset:
+    """What of a plane of starts its entropy rests on."""
+    return xr.Dataset({"status": (("v", "x"), status), "attractor": (("v", "x"), attractor)})
+
+
+def test_of_a_plane_escape_is_a_colour_and_transients_are_none():
+    """Half period 1, a quarter escaped, a quarter chaotic transients or unsettled: of the first two, 2 to 1."""
+    status = np.array(
+        [["periodic", "periodic", "escaped", "transient"], ["periodic", "periodic", "escaped", "unsettled"]]
+    )
+    attractor = np.array([[0, 0, -1, -1], [0, 0, -1, 1]])
+    got = ensembles.basin_entropy(plane_of(status, attractor), box=2)
+    assert (got.entropy, got.boundary_boxes, got.left_out) == (0.0, 0.0, 0.25)
+    turned = ensembles.basin_entropy(plane_of(status[:, [0, 2, 1, 3]], attractor[:, [0, 2, 1, 3]]), box=2)
+    assert turned.entropy == pytest.approx(np.log(2) / 2)
+
+
+def test_transients_along_a_line_do_not_make_it_fractal():
+    """A smooth boundary with a strip of scattered transients beside it: alpha is 1, and less if they were a colour."""
+    labels = np.tile((np.arange(4096) > 1700).astype(int), (256, 1))
+    strip = np.random.default_rng(0).random((256, 800)) < 0.1
+    labels[:, 1300:2100][strip] = -1
+    got = ensembles.uncertainty_exponent(labels)
+    assert got.exponent == pytest.approx(1.0, abs=0.02)
+    assert got.left_out == pytest.approx(strip.sum() / labels.size)
+    assert ensembles.uncertainty_exponent(labels + 1).exponent < 0.5
+
+
 @pytest.mark.slow
 def test_basin_stability_agrees_with_a_fine_grid_within_its_errors_and_repeats_with_its_seed():
     osc = gp.Oscillator(mesh_frequency=0.9)
@@ -87,8 +129,9 @@ def test_basin_stability_agrees_with_a_fine_grid_within_its_errors_and_repeats_w
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: ensembles.basin_entropy([1, 2]), "labels must be a plane"),
+        (lambda: ensembles.basin_entropy([1, 2]), "plane must be a plane of attractor numbers"),
         (lambda: ensembles.basin_entropy([[1, 2]], box=2), "box must be at most the shorter side"),
+        (lambda: ensembles.basin_entropy([[-1, -1]], box=1), "plane must have starts whose fate is known"),
         (lambda: ensembles.uncertainty_exponent(np.zeros((2, 20))), "longest must be from 4"),
         (lambda: ensembles.uncertainty_exponent(np.zeros((2, 200))), "a boundary between different labels"),
         (lambda: ensembles.basin_stability(gp.Oscillator(), 0), "n must be a whole number"),

@@ -233,6 +233,33 @@ def test_shares_have_at_each_value_the_colour_of_the_motion_there():
     assert {"period 1", "period 2", "period 4"} <= set(legend_texts(ax))
 
 
+def test_transients_have_a_colour_and_a_name_of_their_own_and_escape_is_white(plane):
+    mixed = plane.copy(deep=True)
+    mixed.status[0, 0], mixed.status[1, 0] = "transient", "escaped"
+    mixed.attractor[:2, 0] = -1
+    ax = plotting.basins(mixed)
+    (image,) = ax.collections
+    shown = image.cmap(image.norm(image.get_array()))[:, :, :3]
+    assert shown[0, 0] == pytest.approx(to_rgb(plotting.style.MOTION_COLOURS["chaotic transient"]))
+    assert shown[1, 0] == pytest.approx((1.0, 1.0, 1.0))
+    assert shown[0, 1] == pytest.approx(plotting.maps.attractor_colours(plane)[int(plane.attractor[0, 1])])
+    names = list(map(str, gp.ensembles.attractor_motions(plane)))
+    assert legend_texts(ax) == [*names, "chaotic transient"]
+    many = mixed.isel(attractor_number=[0, 1] * 5)
+    assert legend_texts(plotting.basins(many)) == ["period 1", "period 2", "chaotic transient"]
+
+
+def test_starts_that_are_transients_still_stand_above_the_attractors():
+    shares = gp.ensembles.continue_attractors(OSC, "mesh_frequency", [0.7, 0.72], n=20)
+    shares = shares.assign(share=shares.share * [[0.75], [1.0]], transient_share=("mesh_frequency", [0.25, 0.0]))
+    ax = plotting.attractor_shares(shares)
+    (area,) = [each for each in ax.collections if each.get_label() == "chaotic transient"]
+    corners = area.get_paths()[0].vertices
+    assert (*corners.min(axis=0), *corners.max(axis=0)) == pytest.approx((0.7, 0.75, 0.71, 1.0))
+    assert area.get_facecolor()[0][:3] == pytest.approx(to_rgb(plotting.style.MOTION_COLOURS["chaotic transient"]))
+    assert legend_texts(ax)[-1] == "chaotic transient"
+
+
 def test_attractor_points_are_the_cycles(plane):
     state = gp.steady_state(OSC)
     ax = plotting.attractor_points([state], plotting.basins(plane))
