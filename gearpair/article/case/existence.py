@@ -16,6 +16,9 @@ from gearpair.motion.names import Motion
 from gearpair.motion.settling import settle_batch
 from gearpair.oscillator import Oscillator
 
+# Mesh periods discarded, or watched, before a motion is said to exist: a chaotic transient ends in them, with few
+# exceptions whose mean life is longer still.
+WATCHED = 20_000
 STARTS = tuple((x, v) for x in (-1.0, 0.0, 1.0, 2.0) for v in (-0.6, 0.0, 0.6))
 
 
@@ -50,6 +53,20 @@ class Reached:
     def coverage(self) -> float:
         """Fraction of the axis on which the published motion was reached from some start."""
         return float(np.mean(self.published_present))
+
+    def coverage_outside(self, motion: Motion) -> float:
+        """`coverage` where another motion than `motion` is published.
+
+        Examples
+        --------
+        >>> from gearpair.article import PRINTED
+        >>> from gearpair.motion import periodic
+        >>> found = Reached(PRINTED, "damping_ratio", np.array([0.001, 0.009]), (frozenset({periodic(3)}),) * 2)
+        >>> found.coverage, found.coverage_outside(published.CHAOTIC)
+        (0.5, 1.0)
+        """
+        outside = [want != motion for want in published_at(self.parameter, self.values)]
+        return float(np.mean(self.published_present[outside]))
 
     def within(self, item: str) -> float:
         """`coverage` inside one published range, by its item."""
@@ -93,7 +110,8 @@ def reached(
     ----------
     parameter : {"mesh_frequency", "damping_ratio"}
     n_discarded : int or None
-        As in `Protocol`.
+        As in `Protocol`: after the 200 of a drawn diagram a chaotic transient still counts as chaos, after `WATCHED`
+        it has ended.
 
     Notes
     -----
