@@ -47,8 +47,8 @@ class Evidence:
     Parameters
     ----------
     reached : sequence of Reached
-        The motions that it has along each published axis, with `WATCHED` mesh periods discarded: a chaotic transient
-        is none.
+        The motions that it has along each published axis, watched for `WATCHED` mesh periods: chaos that ends in that
+        time is none.
     changes : sequence of Bifurcation
         In either parameter, of `bifurcations_of`.
     stretch : (float, float)
