@@ -68,7 +68,7 @@ def compare_attractors(
     stated, digits
         As in `compare_ranges`.
     planes : mapping of float to xarray.Dataset
-        Of `gearpair.basins`, by the value of the parameter.
+        Of `gearpair.basins`, by the value of the parameter; a chaotic transient is none of their attractors.
     least_share : float
         Attractors that fewer of the starts reach are left out.
 
@@ -84,7 +84,7 @@ def compare_attractors(
     for value, plane in planes.items():
         here = next((r for r in ranges if value in r or value == ranges[-1].upper == r.upper), None)
         counts = Counter(attractor_motions(plane, least_share))
-        # Cycles can be counted. How many chaotic sets there are hangs on how long they were looked at.
+        # Cycles can be counted. How many chaotic sets there are hangs on how long they were watched.
         texts = [
             f"{motion} ({count} of them)" if motion.period and count > 1 else str(motion)
             for motion, count in counts.items()

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import gearpair as gp
 from gearpair import article
@@ -174,7 +175,86 @@ def test_existence_in_the_swapped_reading_and_not_in_the_printed():
 def test_chaos_at_small_damping_is_a_transient():
     d1, d2 = case.judge_items(*evidence(), items=("D1", "D2"))
     assert d1.verdict == d2.verdict == "refuted"
-    assert d1.best == "after 30 000 periods chaotic at 0 of 5 values"
+    assert d1.best == "lasting chaos at 0 of 5 values"
+    assert d1.decided_by == "a grid of starts, watched for 20 000 periods"
+
+
+def test_what_rests_on_chaos_says_how_long_was_watched():
+    by = {row[0]: row[2] for row in article_items.TESTED}
+    assert all("watched for 20 000 periods" in by[item] for item in ("K2", "F8", "F9", "F12", "D1", "D2", "D6"))
+
+
+def test_chaos_is_a_set_that_no_start_left():
+    """Neither a transient nor what is unsettled: `attractor_status` has the attractors, `status` every start."""
+    osc = gp.Oscillator(mesh_frequency=1.09)  # the mean life of chaos is 2000 mesh periods here
+    starts = np.linspace(-3.0, 3.0, 4), np.linspace(-2.0, 2.0, 3)
+    short = gp.basins(osc, *starts, n_watch=300)
+    assert {"transient", "periodic"} <= set(short.status.values.ravel().tolist())
+    assert not article_items.has_chaos(short)
+    assert article_items.has_chaos(gp.basins(osc.replace(mesh_frequency=1.219), *starts))
+    # So weakly damped that nothing settles in so short a time, and no exponent is resolved.
+    weak = gp.basins(gp.Oscillator(damping_ratio=1e-4), [0.05, 0.1], [0.0], n_transient=5, n_exponent=20, n_watch=20)
+    assert "unsettled" in weak.attractor_status.values
+    assert not article_items.has_chaos(weak)
+
+
+def test_what_is_unsettled_is_counted_among_no_attractors():
+    """I4 counts cycles and chaotic sets; the unsettled motions of a plane stand in one row that is no attractor."""
+    found = case.Evidence(article.SWAPPED)
+    row = {
+        "attractor_status": ("attractor_number", ["periodic", "periodic", "unsettled"]),
+        "attractor_period": ("attractor_number", [1, 1, 0]),
+        "attractor_impact_state": ("attractor_number", ["double", "single_drive", "double"]),
+    }
+    vars(found)["plane"] = xr.Dataset(row)
+    (i4,) = case.judge_items(found, found, ["I4"])
+    assert i4.printed.startswith("2 attractors, period 1:")
+
+
+def test_transients_are_drawn_and_do_not_exist():
+    """D1: with 200 mesh periods discarded all looks chaotic, watched nothing does; the cycles are the same."""
+    drawn, watched = (
+        case.reached([article.SWAPPED], "damping_ratio", 10, **how)[0]
+        for how in ({"n_discarded": 200}, {"n_watch": case.WATCHED})
+    )
+    assert drawn.within("D1") == 1.0 and watched.within("D1") == 0.0
+    assert not watched.has(published.CHAOTIC).any()
+    assert drawn.coverage == 1.0 and watched.coverage == pytest.approx(0.9)
+    assert watched.coverage_outside(published.CHAOTIC) == 1.0
+
+
+def test_a_longer_cycle_is_no_chaos_when_watched():
+    """Period 24 of the swapped reading at zeta 0.006875, from one start: too long to be read off a diagram."""
+    start = [(-1.0, -0.6)]
+    assert gp.steady_state(article.SWAPPED.oscillator(damping_ratio=0.006875), *start[0]).period == 24
+    for how, seen in (({"n_discarded": 200}, True), ({"n_watch": 1000}, False)):
+        (found,) = case.reached([article.SWAPPED], "damping_ratio", 20, starts=start, **how)
+        assert found.values[5] == pytest.approx(0.006875)
+        assert found.has(published.CHAOTIC)[5] == seen
+
+
+def test_what_is_neither_periodic_nor_chaos_is_no_motion_that_a_reading_has():
+    """From X = 1000 at zeta 0.000125 a motion is far out still after some 500 mesh periods: drawn, it is no period."""
+    start, short = [(1000.0, 0.0)], {"n_discarded": 5}
+    drawn, watched = (
+        case.reached([article.SWAPPED], "damping_ratio", 100, starts=start, **short, **how)[0].motions[0]
+        for how in ({}, {"n_watch": 1})
+    )
+    assert drawn == {published.CHAOTIC} and watched == set()
+
+
+@pytest.mark.slow
+def test_a_way_out_of_chaos_that_ends_is_half_a_way(changes):
+    """F12: as printed doublings lie on both ways, but beyond those at 1.603 chaos lives some 20 000 mesh periods."""
+    stretches = (0.77, 1.61), (1.13, 1.43)
+    found = [case.Evidence(h, (), changes[h], s) for h, s in zip(BOTH, stretches, strict=True)]
+    (f12,) = case.judge_items(*found, items=["F12"])
+    assert f12.printed == "flips 0.766 0.798 0.807 in, 1.614 1.605 1.603 out; lasting chaos beyond the first"
+    assert f12.best == "flips 1.128 1.225 1.230 in, 1.434 out; lasting chaos beyond the first"
+    assert f12.verdict == "contrary"
+    assert [article_items._route(each)[1] for each in found] == [NEARLY, FAILS]
+    (turned,) = case.judge_items(*found[::-1], items=["F12"])
+    assert turned.verdict == "corrected"
 
 
 def test_one_period_two_impact_states():

@@ -9,7 +9,7 @@ from gearpair.article.case.boundaries import (
     distance_from_bifurcations,
     named_bifurcation,
 )
-from gearpair.article.case.existence import STARTS, Reached, reached, shared_boundaries
+from gearpair.article.case.existence import STARTS, WATCHED, Reached, reached, shared_boundaries
 from gearpair.article.case.items import Evidence, judge_items
 from gearpair.article.case.scoring import Match, Score, axis, published_motions, random_tables, score
 from gearpair.article.case.search import (
@@ -46,6 +46,7 @@ __all__ = [
     "TOLERANCES",
     "Trial",
     "Verdict",
+    "WATCHED",
     "all_hypotheses",
     "all_protocols",
     "asked_phase_table",

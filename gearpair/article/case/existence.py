@@ -13,9 +13,12 @@ from gearpair.article.case.scoring import axis, published_at, published_kind, pu
 from gearpair.article.case.trials import drawn_settings, followed
 from gearpair.article.readings import Hypothesis
 from gearpair.motion.names import Motion
-from gearpair.motion.settling import settle_batch
+from gearpair.motion.settling import MANY, STATUSES, Status, settle_batch
 from gearpair.oscillator import Oscillator
 
+# Mesh periods that a motion is watched for before it is said to be chaos: most chaotic transients end in them.
+WATCHED = 20_000
+NEITHER = -1  # in place of a period: neither periodic nor chaos
 STARTS = tuple((x, v) for x in (-1.0, 0.0, 1.0, 2.0) for v in (-0.6, 0.0, 0.6))
 
 
@@ -50,6 +53,20 @@ class Reached:
     def coverage(self) -> float:
         """Fraction of the axis on which the published motion was reached from some start."""
         return float(np.mean(self.published_present))
+
+    def coverage_outside(self, motion: Motion) -> float:
+        """`coverage` where another motion than `motion` is published.
+
+        Examples
+        --------
+        >>> from gearpair.article import PRINTED
+        >>> from gearpair.motion import periodic
+        >>> found = Reached(PRINTED, "damping_ratio", np.array([0.001, 0.009]), (frozenset({periodic(3)}),) * 2)
+        >>> found.coverage, found.coverage_outside(published.CHAOTIC)
+        (0.5, 1.0)
+        """
+        outside = [want != motion for want in published_at(self.parameter, self.values)]
+        return float(np.mean(self.published_present[outside]))
 
     def within(self, item: str) -> float:
         """`coverage` inside one published range, by its item."""
@@ -86,6 +103,7 @@ def reached(
     *,
     starts: Sequence[tuple[float, float]] = STARTS,
     n_discarded: int | None = None,
+    n_watch: int | None = None,
 ) -> list[Reached]:
     """The motions that each hypothesis has at the middles of `n_values` equal parts of the published axis.
 
@@ -94,6 +112,10 @@ def reached(
     parameter : {"mesh_frequency", "damping_ratio"}
     n_discarded : int or None
         As in `Protocol`.
+    n_watch : int, optional
+        What is not periodic by then is watched for so many mesh periods more, and chaos is what is aperiodic even
+        then. When None, motions are read off as in a drawn diagram, where all that has no period up to
+        `MAX_PERIOD` looks like chaos: a chaotic transient, a slow approach, a longer cycle.
 
     Notes
     -----
@@ -109,10 +131,19 @@ def reached(
     edges = axis(parameter, n_values + 1)
     values = 0.5 * (edges[1:] + edges[:-1])
 
+    settings = drawn_settings(n_discarded)
+    if n_watch is not None:
+        settings = MANY.having({"n_transient": n_discarded, "n_watch": n_watch})
+
     def follow(oscillators: list[Oscillator]) -> NDArray[np.int64]:
-        return settle_batch(oscillators, np.tile(starts, (len(oscillators), 1)), drawn_settings(n_discarded)).period
+        out = settle_batch(oscillators, np.tile(starts, (len(oscillators), 1)), settings)
+        chaos = out.status == STATUSES.index(Status.APERIODIC)
+        return out.period if n_watch is None else np.where(chaos | (out.period > 0), out.period, NEITHER)
+
+    def kinds(row: NDArray[np.int64]) -> frozenset[Motion]:
+        return frozenset(published_kind(int(period), parameter) for period in row if period != NEITHER)
 
     return [
-        Reached(h, parameter, values, tuple(frozenset(published_kind(int(m), parameter) for m in row) for row in rows))
+        Reached(h, parameter, values, tuple(map(kinds, rows)))
         for h, rows in zip(hypotheses, followed(hypotheses, parameter, values, follow), strict=True)
     ]

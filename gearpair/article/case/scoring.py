@@ -126,7 +126,8 @@ def published_kind(period: int, parameter: str) -> Motion:
     -------
     Motion
         On the frequency axis period 1, 2 or 4, and `COMPLEX` for all else: the article's complex zone holds chaotic
-        bands and windows of other periods. On the damping axis the period, and `CHAOTIC` for none.
+        bands and windows of other periods. On the damping axis the period, and `CHAOTIC` for none. Whether chaos
+        lasts is not asked: that hangs on how many periods were discarded before the period was read off.
 
     Examples
     --------

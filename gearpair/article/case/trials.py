@@ -58,7 +58,7 @@ def followed(
 
 
 def drawn_settings(n_discarded: int | None) -> SettleSettings:
-    """How a motion settles whose period alone is read off."""
+    """How a motion settles whose period alone is read off, as its author may have done: without watching it."""
     return PERIODS.having({"n_transient": n_discarded, "max_period": MAX_PERIOD})
 
 
@@ -71,7 +71,9 @@ class Protocol:
     seeding : {"up", "down", "restart"}
         State carried with the parameter rising or falling, or every value started from (x, v).
     n_discarded : int or None
-        Mesh periods discarded as transient at each value; None waits for each motion to settle.
+        Mesh periods discarded as transient at each value; None waits for each motion to settle, for
+        `gearpair.motion.settling.transient_periods` at most. No diagram is watched any longer: a chaotic transient that
+        outlasts the wait is drawn as what it looks like.
     x, v : float
         The start.
     """
