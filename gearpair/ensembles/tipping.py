@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count, check_number
-from gearpair._flow.settle import TRANSIENT
+from gearpair._flow.states import TRANSIENT
 from gearpair.ensembles.capture import known_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
 from gearpair.ensembles.planes import ATTRACTOR_COLUMNS
