@@ -56,8 +56,8 @@ def continue_attractors(
         Over ``(parameter, attractor)``: ``share`` (nan where the attractor was not found), ``attractor_status``,
         ``attractor_period``, ``attractor_impact_state``, ``attractor_x_min``, ``attractor_x_max``,
         ``attractor_exponent``, and ``tips_to``: at the first value without the attractor, the number of the one that
-        its motion goes over to; `ESCAPES` (-2) where it escapes; `LINGERS` (-3) where it is chaotic still, on a set
-        that others have left; -1 elsewhere. Attractors are numbered as they turn up. Over ``parameter``:
+        its motion goes over to; -2 where it escapes; -3 where it is chaotic still, on a set that others have left;
+        -1 elsewhere. Attractors are numbered as they turn up. Over ``parameter``:
         ``transient_share`` of the starts that are transients still, and belong to no attractor.
 
     Notes
@@ -154,7 +154,7 @@ def _matched(
     """Numbers for the attractors found here, and for each number that has ended the one that it tips to.
 
     `leads_to` has, for each number of the value before, the attractor found here that its motion settles on, -1 where
-    it settles on none, or `LINGERS`; the numbers `followed` there are it, near or not.
+    it settles on none, or LINGERS; the numbers `followed` there are it, near or not.
     """
     given = [-1] * len(extremes)
     apart = {number: _apart(extremes, place) for number, place in places.items()}

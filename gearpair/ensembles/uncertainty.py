@@ -68,7 +68,7 @@ def basin_entropy(plane: xr.Dataset | ArrayLike, box: int = 5) -> BasinEntropy:
     Examples
     --------
     >>> basin_entropy([[0, 0, 0, 1], [0, 0, 1, 0]], box=2)
-    BasinEntropy(entropy=0.34657359027997264, boundary_entropy=0.6931471805599453, boundary_boxes=0.5)
+    BasinEntropy(entropy=0.34657359027997264, boundary_entropy=0.6931471805599453, boundary_boxes=0.5, left_out=0.0)
     """
     labels = _labels(plane)
     box = check_count("box", box)

@@ -46,7 +46,7 @@ def test_a_motion_that_grows_without_bound_is_one_and_does_not_tip():
 
 
 def test_chaos_that_becomes_a_transient_is_no_attractor_any_more_and_does_not_escape():
-    """From 1.0925 to 1.09 chaos begins to end, by a mean life of 2000: short of it some starts are chaotic still."""
+    """At 1.1095 chaos lasts, at 1.09 it ends: with a mean life of 2000 mesh periods, so some starts are in it still."""
     how = {"n": 60, "n_watch": 2000}
     shares = ensembles.continue_attractors(gp.Oscillator(), "mesh_frequency", [1.1095, 1.09], **how)
     (chaos,) = np.flatnonzero(shares.attractor_status[0] == "aperiodic")
