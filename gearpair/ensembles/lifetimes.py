@@ -87,7 +87,8 @@ def survival(
     are watched again from their start.
 
     The rate (see `escape_rate`) is that of one set which all starts have reached by the end of `discard`. A curve of
-    survivors that is no straight line in a logarithmic scale says that there are more: some of them may last.
+    survivors that is no straight line in a logarithmic scale says that there are more: some of them may last. What
+    counts as an escape is a cycle that captures a start; one chaotic set that leads into another is one set here.
 
     Examples
     --------

@@ -56,7 +56,7 @@ def work_precision(measured: Sequence[Precision], ax: Axes | None = None) -> Axe
 def drawn_diagram(
     exact: xr.Dataset, drawn: xr.Dataset, ax: Axes | None = None, *, title: str = "", legend: bool = True
 ) -> Axes:  # fmt: skip
-    """A diagram as an integrator draws it, its numerical chaos in red.
+    """A diagram as an integrator draws it; in red where it is disordered, though the motion is periodic in the end.
 
     Two lines of dots: what may be believed, then what the integrator made up.
 
@@ -81,8 +81,8 @@ def drawn_diagram(
     false = numerical_chaos(exact, drawn)
     values = drawn[parameter].values
     for chosen, colour, label in (
-        (~false, INK, "periodic, or chaos in truth too"),
-        (false, FALSE_CHAOS, "numerical chaos"),
+        (~false, INK, "periodic, or chaotic in truth too"),
+        (false, FALSE_CHAOS, "disordered, though periodic in the end"),
     ):
         x = drawn.x.values[chosen]
         looks: dict[str, Any] = {"markeredgewidth": 0, "markersize": 1.7, "color": colour, "rasterized": True}

@@ -151,6 +151,19 @@ def test_without_a_mean_force_a_motion_may_float():
     assert loaded.status[0] != FLOATING
 
 
+@pytest.mark.parametrize(("frequency", "period"), [(0.318, 16), (0.766, 2)])
+def test_a_cycle_without_a_neighbourhood_captures_what_returns_to_it_or_slowly_nears_it(frequency, period):
+    """Near a grazing or a flip none can be certified. The limit is the orbit all the same, on which the next begins."""
+    osc = gp.Oscillator(mesh_frequency=frequency)
+    out = settled([osc], [(1.0, 0.0)], n_transient=500, max_period=16, n_samples=16)
+    assert (out.status[0], out.period[0]) == (PERIODIC, period) and out.lasted[0] == out.way[0, 0] > 100
+    orbit = gp.periodic_orbit(osc, *out.points[0, 0], period)
+    assert orbit.converged and np.abs(orbit.multipliers).max() < 1.0
+    assert np.abs(orbit.points - out.final[0]).max(axis=1).min() < 1e-9
+    reached = gp.stroboscopic_map(osc, 1.0, 0.0, int(out.lasted[0]))
+    assert 0.0 < np.abs(orbit.points - reached).max(axis=1).min() < 1e-2
+
+
 def test_after_capture_the_rest_of_the_way_counts():
     """A cycle with a wide neighbourhood: the start is captured at once, and swings farther only afterwards."""
     osc = gp.Oscillator(mean_force=1.0, error_amplitude=0.05, damping_ratio=0.05)

@@ -100,7 +100,7 @@ def test_numerical_chaos_is_red():
     assert gp.methods.numerical_chaos(exact, loose).tolist() == [False, True, True]
     assert not gp.methods.numerical_chaos(exact, tight).any()
     assert not gp.methods.numerical_chaos(exact, gp.methods.plain_sweep(CHAOTIC, "mesh_frequency", values)).any()
-    red = line(plotting.drawn_diagram(exact, loose), "numerical chaos")
+    red = line(plotting.drawn_diagram(exact, loose), "disordered, though periodic in the end")
     assert set(red.get_xdata()) == {1.65, 1.7}
     with pytest.raises(ValueError, match="same values of mesh_frequency"):
         gp.methods.numerical_chaos(exact, gp.methods.plain_sweep(CHAOTIC, "mesh_frequency", [1.65]))
