@@ -21,6 +21,7 @@ from gearpair.plotting.article import (
     stiffness_trends,
 )
 from gearpair.plotting.bifurcations import bifurcation_curves, branches
+from gearpair.plotting.boundaries import manifolds
 from gearpair.plotting.diagrams import (
     attractor_shares,
     bifurcation_diagram,
@@ -92,6 +93,7 @@ __all__ = [
     "impact_states",
     "interpolation_error",
     "load_shares",
+    "manifolds",
     "mark_boundaries",
     "mesh_curves",
     "motion_colour",

@@ -1,0 +1,60 @@
+"""The boundary between basins: the manifolds of the saddle on it."""
+
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.patheffects import withStroke
+
+from gearpair.boundaries.growing import Manifolds
+from gearpair.plotting.style import new_axes
+from gearpair.quantities import axis_label
+
+STABLE, UNSTABLE = "#111111", "#B2182B"  # told apart from all motions', and from each other without colours by the dash
+HALO = withStroke(linewidth=2.4, foreground="white")
+
+
+def manifolds(found: Manifolds, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """The curves on which motions approach a saddle (solid) and leave it (dashed), with its section points (diamonds).
+
+    Parameters
+    ----------
+    found : Manifolds
+        Of `gearpair.manifolds`.
+    ax : Axes, optional
+        For example that of a `basins`, to draw over it: its limits stay, and the legend goes into the axes.
+    legend : bool
+        Whether the curves are named.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> saddle = gp.periodic_orbit(gp.Oscillator(), -1.5688, -1.0135, 1)
+    >>> ax = manifolds(gp.manifolds(saddle, length=3.0))
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['stable manifold', 'unstable manifold', 'saddle']
+    """
+    over = ax is not None
+    ax = new_axes(ax, 5.0)
+    limits = ax.get_xlim(), ax.get_ylim()
+    looks: dict[str, dict[str, Any]] = {
+        "stable": {"color": STABLE, "linewidth": 1.1},
+        "unstable": {"color": UNSTABLE, "linewidth": 0.9, "linestyle": (0, (5, 1.2))},
+    }
+    handles = []
+    for name, look in looks.items():
+        for curve in getattr(found, name):
+            (line,) = ax.plot(*curve.T, label=f"{name} manifold", path_effects=[HALO], zorder=3, **look)
+        handles.append(line)
+    (dots,) = ax.plot(
+        *found.orbit.points.T, "D", markersize=5.0, color=STABLE, markeredgecolor="white", label="saddle", zorder=4
+    )
+    if over:
+        ax.set(xlim=limits[0], ylim=limits[1])
+    else:
+        ax.set(xlabel=axis_label("x"), ylabel=axis_label("v"))
+    if legend:
+        key = ax.get_legend()
+        ax.legend(handles=[*handles, dots], loc="lower right", frameon=True, framealpha=0.9, edgecolor="none")
+        if key is not None:
+            ax.add_artist(key)
+    return ax
