@@ -119,8 +119,8 @@ def at_phase(osc: Oscillator, phase: float) -> Oscillator:
     Examples
     --------
     >>> import gearpair as gp
-    >>> at_phase(gp.Oscillator(), 0.5).stiffness.edges  # the stiffer pair of teeth comes after half a period
-    (0.0, 0.5)
+    >>> [round(edge, 2) for edge in at_phase(gp.Oscillator(), 0.5).stiffness.edges]  # 0.68, and the old section
+    [0.0, 0.18, 0.5]
     """
     phase = check_number("phase", phase, at_least=0.0, below=1.0)
     edges, levels = osc.stiffness.edges, osc.stiffness.levels
