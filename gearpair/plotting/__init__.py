@@ -21,7 +21,7 @@ from gearpair.plotting.article import (
     stiffness_trends,
 )
 from gearpair.plotting.bifurcations import bifurcation_curves, branches
-from gearpair.plotting.boundaries import manifolds
+from gearpair.plotting.boundaries import chaotic_saddle, manifolds
 from gearpair.plotting.diagrams import (
     attractor_shares,
     bifurcation_diagram,
@@ -78,6 +78,7 @@ __all__ = [
     "branches",
     "certificate",
     "certified_steps",
+    "chaotic_saddle",
     "compliance_stack",
     "contact_ratio_cloud",
     "coverage_by_phase",

@@ -1,12 +1,13 @@
-"""The boundary between basins: the manifolds of the saddle on it."""
+"""What lies between attractors: the manifolds of a saddle on a boundary, and the chaotic saddle behind a transient."""
 
 from typing import Any
 
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
 from gearpair.boundaries.growing import Manifolds
-from gearpair.plotting.style import new_axes
+from gearpair.plotting.style import MOTION_COLOURS, new_axes
 from gearpair.quantities import axis_label
 
 STABLE, UNSTABLE = "#111111", "#B2182B"  # told apart from all motions', and from each other without colours by the dash
@@ -57,4 +58,22 @@ def manifolds(found: Manifolds, ax: Axes | None = None, *, legend: bool = True) 
         ax.legend(handles=[*handles, dots], loc="lower right", frameon=True, framealpha=0.9, edgecolor="none")
         if key is not None:
             ax.add_artist(key)
+    return ax
+
+
+def chaotic_saddle(
+    result: xr.Dataset, ax: Axes | None = None, *, colour: str = MOTION_COLOURS["chaotic transient"]
+) -> Axes:
+    """The section points near a chaotic saddle, of `gearpair.ensembles.chaotic_saddle`: one line of dots.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> found = gp.ensembles.chaotic_saddle(gp.Oscillator(mesh_frequency=1.09), [-1.0, 0.0, 1.0, 2.0], -1.0)
+    >>> len(chaotic_saddle(found).lines[0].get_xdata()) == found.sizes["point"]
+    True
+    """
+    ax = new_axes(ax, 5.0)
+    ax.plot(result.x.values, result.v.values, ".", markersize=1.2, markeredgewidth=0.0, color=colour, rasterized=True)
+    ax.set(xlabel=axis_label("x"), ylabel=axis_label("v"))
     return ax

@@ -35,3 +35,11 @@ def test_over_basins_the_limits_the_labels_and_the_legend_stay(found):
 
 def test_without_a_legend_there_is_none(found):
     assert plotting.manifolds(found, legend=False).get_legend() is None
+
+
+def test_a_chaotic_saddle_is_drawn_point_by_point():
+    result = gp.ensembles.chaotic_saddle(gp.Oscillator(mesh_frequency=1.09), [0.0, 1.0], -1.0, n_periods=700)
+    ax = plotting.chaotic_saddle(result, colour="#009E73")
+    (dots,) = ax.lines
+    np.testing.assert_array_equal(np.column_stack(dots.get_data()), np.column_stack([result.x, result.v]))
+    assert (dots.get_color(), dots.get_linestyle(), ax.get_ylabel()) == ("#009E73", "None", "velocity $X'$")
