@@ -4,9 +4,11 @@ from typing import Any
 
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
 from gearpair.boundaries.growing import Manifolds
+from gearpair.plotting.bifurcations import add_key
 from gearpair.plotting.style import MOTION_COLOURS, new_axes
 from gearpair.quantities import axis_label
 
@@ -22,17 +24,17 @@ def manifolds(found: Manifolds, ax: Axes | None = None, *, legend: bool = True) 
     found : Manifolds
         Of `gearpair.manifolds`.
     ax : Axes, optional
-        For example that of a `basins`, to draw over it: its limits stay, and the legend goes into the axes.
+        For example that of a `basins`, to draw over it: its limits and its legend stay.
     legend : bool
-        Whether the curves are named.
+        Whether the curves are named, inside the axes.
 
     Examples
     --------
     >>> import gearpair as gp
     >>> saddle = gp.periodic_orbit(gp.Oscillator(), -1.5688, -1.0135, 1)
     >>> ax = manifolds(gp.manifolds(saddle, length=3.0))
-    >>> [text.get_text() for text in ax.get_legend().get_texts()]
-    ['stable manifold', 'unstable manifold', 'saddle']
+    >>> sorted({line.get_label() for line in ax.lines})
+    ['saddle', 'stable manifold', 'unstable manifold']
     """
     over = ax is not None
     ax = new_axes(ax, 5.0)
@@ -41,7 +43,7 @@ def manifolds(found: Manifolds, ax: Axes | None = None, *, legend: bool = True) 
         "stable": {"color": STABLE, "linewidth": 1.1},
         "unstable": {"color": UNSTABLE, "linewidth": 0.9, "linestyle": (0, (5, 1.2))},
     }
-    handles = []
+    handles: list[Line2D] = []
     for name, look in looks.items():
         for curve in getattr(found, name):
             (line,) = ax.plot(*curve.T, label=f"{name} manifold", path_effects=[HALO], zorder=3, **look)
@@ -54,10 +56,7 @@ def manifolds(found: Manifolds, ax: Axes | None = None, *, legend: bool = True) 
     else:
         ax.set(xlabel=axis_label("x"), ylabel=axis_label("v"))
     if legend:
-        key = ax.get_legend()
-        ax.legend(handles=[*handles, dots], loc="lower right", frameon=True, framealpha=0.9, edgecolor="none")
-        if key is not None:
-            ax.add_artist(key)
+        add_key(ax, [*handles, dots])
     return ax
 
 

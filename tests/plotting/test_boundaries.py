@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from matplotlib.legend import Legend
 
 import gearpair as gp
 from gearpair import plotting
@@ -10,6 +11,11 @@ from gearpair import plotting
 @pytest.fixture(scope="module")
 def found():
     return gp.manifolds(gp.periodic_orbit(gp.Oscillator(), -1.5688, -1.0135, 1), length=3.0)
+
+
+def keys_in(ax):
+    """The legends inside the axes."""
+    return [each for each in ax.get_children() if isinstance(each, Legend) and each is not ax.get_legend()]
 
 
 def test_each_branch_is_a_line_and_the_saddle_a_mark(found):
@@ -28,13 +34,13 @@ def test_over_basins_the_limits_the_labels_and_the_legend_stay(found):
     limits, label, key = (ax.get_xlim(), ax.get_ylim()), ax.get_xlabel(), ax.get_legend()
     assert plotting.manifolds(found, ax) is ax
     assert (ax.get_xlim(), ax.get_ylim()) == limits and ax.get_xlabel() == label
-    assert key in ax.get_children() and ax.get_legend() is not key
-    names = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert names == ["stable manifold", "unstable manifold", "saddle"]
+    assert ax.get_legend() is key  # above the axes, and not cut off by them
+    (own,) = keys_in(ax)
+    assert [text.get_text() for text in own.get_texts()] == ["stable manifold", "unstable manifold", "saddle"]
 
 
 def test_without_a_legend_there_is_none(found):
-    assert plotting.manifolds(found, legend=False).get_legend() is None
+    assert keys_in(plotting.manifolds(found, legend=False)) == []
 
 
 def test_a_chaotic_saddle_is_drawn_point_by_point():
