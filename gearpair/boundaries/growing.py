@@ -23,7 +23,6 @@ BEGIN, SEEDS = 1e-7, 5
 # next chord; that product is at most BENT of the spacing, down to LEAST of it, where a fold is a point.
 BENT, LEAST = 0.1, 1e-3
 BEYOND = 2.0  # half widths of the window, about its middle, beyond which a curve is not followed
-PASSES = 60  # of the filling up of one piece: each halves the gaps
 STANDSTILL = 1e-2  # in spacings: a piece as short as this shows that the curve has come to an attractor
 
 
@@ -43,7 +42,7 @@ class Manifolds:
         The largest distance of neighbours.
     complete : bool
         Whether each branch was followed to where it leaves the window or comes to rest; otherwise some are as long, or
-        have as many points, as was allowed.
+        have as many points, as was allowed, or are stretched so much that rounding parts neighbours.
     """
 
     orbit: PeriodicOrbit
@@ -180,6 +179,7 @@ class Branch:
         """The curve (n, 2) from the orbit outwards, and whether nothing is left to grow."""
         t = np.linspace(0.0, 1.0, SEEDS)
         points, joined = self._seed.points(t), np.ones(SEEDS - 1, bool)
+        points[-1] = self._step(points[:1], self._period)[0]  # so that each image begins where the one before it ends
         curve = [self._seed.point[None]]
         total, count, n = 0.0, 1, 0
         while True:
@@ -207,20 +207,22 @@ class Branch:
     def _filled(
         self, t: NDArray[np.float64], points: NDArray[np.float64], joined: NDArray[np.bool_], n: int, room: int
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_], bool]:
-        """The image number `n` with points put in until it is fine enough: whether there was room for them."""
-        for _ in range(PASSES):
+        """The image number `n` with points put in until it is fine enough, and whether it became so.
+
+        Where there is no room, or no number left between two neighbours on the first piece, it ends before.
+        """
+        while True:
             coarse = joined & self._coarse(points, joined)
-            middle = 0.5 * (t[1:] + t[:-1])
-            coarse &= (middle > t[:-1]) & (middle < t[1:])
             if not coarse.any():
                 return t, points, joined, True
-            if len(points) + coarse.sum() > room:
-                break
-            at = np.flatnonzero(coarse)
+            at, middle = np.flatnonzero(coarse), 0.5 * (t[1:] + t[:-1])
+            stuck = (middle[at] <= t[at]) | (middle[at] >= t[at + 1])
+            if stuck.any() or len(points) + len(at) > room:
+                end = int(at[0]) + 1
+                return t[:end], points[:end], joined[: end - 1], False
             between = self._step(self._seed.points(middle[at]), n * self._period)
             t, points = np.insert(t, at + 1, middle[at]), np.insert(points, at + 1, between, axis=0)
             joined = np.insert(joined, at + 1, True) & self._followed(points)
-        return t, points, joined, False
 
     def _coarse(self, points: NDArray[np.float64], joined: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Whether each chord is too long, or bends too much against its neighbours; shape (n - 1,)."""
@@ -244,7 +246,7 @@ def pieces_of(
     out = [gap] if t[0] > 0.0 else []
     for run in np.split(points, np.flatnonzero(~joined) + 1):
         out += [run, gap] if len(run) > 1 else [gap]
-    if follows and t[0] == 0.0 and joined[0]:
+    if follows and t[0] == 0.0 and len(joined) > 0 and joined[0]:
         out[0] = out[0][1:]
     return out if t[-1] < 1.0 or not joined[-1] else out[:-1]
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair.boundaries import backward_map
+from gearpair.boundaries import backward_map, growing
 from gearpair.boundaries.growing import length_of
 from gearpair.boundaries.sides import Sides
 from tests.support import always_in_contact
@@ -130,10 +130,29 @@ def test_limits_of_length_and_points_are_kept_and_told(found):
     for curve in (*short.stable, *short.unstable):
         assert 2.0 <= length_of(curve) < 2.0 + short.spacing
     few = gp.manifolds(SADDLE, max_points=300)
-    assert not few.complete and all(len(curve) <= 305 for curve in (*few.stable, *few.unstable))
+    assert not few.complete
+    for curve in (*few.stable, *few.unstable):
+        assert 150 < len(curve) <= 305 and np.nanmax(np.hypot(*np.diff(curve, axis=0).T)) <= few.spacing
     assert repr(short).startswith(
         "manifolds of the orbit of period 1 at X = -1.5688, X' = -1.0135: stable of length 4."
     )
+
+
+def test_one_image_begins_where_the_last_one_ends():
+    """Followed for long in chaos, too, where a difference in the last digit would have grown to more than a chord."""
+    osc = BASELINE.replace(mesh_frequency=1.219)
+    found = gp.manifolds(gp.periodic_orbit(osc, 1.00827, -0.33902, 1), spacing=0.2, length=4000.0)
+    for curve in (*found.stable, *found.unstable):
+        assert np.nanmax(np.hypot(*np.diff(curve, axis=0).T)) <= found.spacing * (1.0 + 1e-9)
+
+
+def test_a_curve_ends_where_rounding_parts_neighbours(monkeypatch):
+    """As it would at the usual begin after a length of some millions."""
+    monkeypatch.setattr(growing, "BEGIN", 1e-14)
+    found = gp.manifolds(SADDLE, length=40.0)
+    assert not found.complete
+    for curve in (*found.stable, *found.unstable):
+        assert length_of(curve) < 30.0 and np.nanmax(np.hypot(*np.diff(curve, axis=0).T)) <= found.spacing
 
 
 def test_a_curve_that_leaves_the_window_is_complete():
