@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair.boundaries.sides import Sides
+from gearpair.boundaries.sides import UNBOUNDED, Sides
 from gearpair.motion.same_orbit import lies_on
 from tests.support.oscillators import BASELINE
 
@@ -75,6 +75,22 @@ def test_the_boundary_between_chaos_and_a_period_two_leads_to_a_saddle_of_period
     found = gp.edge_state(osc, (1.0, 0.0), (-2.2116, -0.0777), n_watch=1000)
     assert str(found.sides[0].motion.kind) == "chaos" and found.orbit.period == 2
     assert lies_on(found.orbit.points[0], gp.periodic_orbit(osc, -1.5395, -0.79663, 2).points)
+
+
+def test_what_escapes_has_a_boundary_too():
+    osc = BASELINE.replace(mesh_frequency=1.85)  # beyond it contact is parametrically unstable
+    assert Sides(osc, (500.0, 0.0), {}).home == UNBOUNDED
+    found = gp.edge_state(osc, (500.0, 0.0), (1.0, 0.0))
+    assert (found.sides[0].status, found.sides[1].period) == ("escaped", 1)
+    assert found.orbit.period == 2 and np.abs(found.orbit.multipliers[0]) == pytest.approx(1.753, abs=1e-3)
+    assert found.orbit.x_min < -3.0 and found.orbit.x_max > 3.0
+
+
+def test_a_boundary_may_be_chaotic_itself():
+    """From within, the first boundary at 1.85 is that of a motion of period 4, which never repeats."""
+    found = gp.edge_state(BASELINE.replace(mesh_frequency=1.85), (1.0, 0.0), (500.0, 0.0), n_periods=300)
+    assert (found.status, found.orbit, found.tracked) == ("unsettled", None, 300)
+    assert 0.02 < found.exponent < 0.1 and len(found.points) == 301
 
 
 def test_a_boundary_that_has_not_repeated_is_no_orbit(found):

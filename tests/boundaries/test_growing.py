@@ -119,6 +119,10 @@ def test_those_of_a_longer_orbit_begin_at_each_of_its_points_and_are_mapped_on()
     for k in range(4):
         np.testing.assert_array_equal(found.stable[k][0], orbit.points[k // 2])
         np.testing.assert_array_equal(found.unstable[k][0], orbit.points[k // 2])
+    for curves, multiplier in ((found.stable, orbit.multipliers[1]), (found.unstable, orbit.multipliers[0])):
+        for curve in curves[:2]:  # along the eigenvector of the whole cycle
+            way = (curve[1] - curve[0]) / np.hypot(*(curve[1] - curve[0]))
+            np.testing.assert_allclose(orbit.monodromy @ way, multiplier.real * way, rtol=0.0, atol=1e-7)
     first = np.concatenate([curve[: len(curve) // 20] for curve in found.unstable[:2]])
     image = np.column_stack(gp.stroboscopic_map(osc, *first.T))
     assert off(image, np.concatenate([found.unstable[2][::-1], found.unstable[3]])).max() < 0.01 / 80.0
