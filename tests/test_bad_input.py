@@ -32,7 +32,7 @@ RECTANGULAR = gp.StiffnessWave.rectangular
         ({"contact_ratio": 2.0}, "contact_ratio must be a finite number above 1 and below 2, got 2.0"),
         ({"b": 1.0}, "b must be a finite number below 1, got 1.0"),
         ({"a": -1.0}, "a must be a finite number above -1, got -1.0"),
-        ({"omega": 1.0}, "unknown parameter 'omega'; the parameters are mean_force, error_amplitude"),
+        ({"omega": 1.0}, "unknown parameter 'omega' (did you mean 'mesh_frequency'?); the parameters are mean_force"),
         ({"a": 0.1, "stiffness": RECTANGULAR()}, "give either stiffness or a, not both"),
     ],
 )
