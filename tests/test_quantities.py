@@ -10,7 +10,6 @@ from gearpair.oscillator import part_of
 from gearpair.quantities import QUANTITIES, ROWS, attributes, axis_label
 from tests.support import ROOT
 
-
 PLAIN = [name for name in Oscillator().parameters if part_of(name) is None]  # parts have words of their own
 
 
