@@ -1,13 +1,14 @@
 """Nonlinear dynamics of a spur gear pair with backlash and time-varying mesh stiffness.
 
 Start with an `Oscillator`; then `trajectory`, `steady_state`, `sweep`, `basins`. What is not here is in the folder that
-its subject names: `teeth`, `motion`, `ensembles`, `bifurcations`, `design`, `methods`, `article`, `plotting`.
+its subject names: `teeth`, `motion`, `ensembles`, `bifurcations`, `boundaries`, `design`, `methods`, `article`,
+`plotting`.
 """
 
 import importlib
 from typing import Any
 
-from gearpair import article, bifurcations, design, ensembles, methods, motion, teeth
+from gearpair import article, bifurcations, boundaries, design, ensembles, methods, motion, teeth
 from gearpair.article import published
 from gearpair.bifurcations import (
     Bifurcation,
@@ -19,6 +20,7 @@ from gearpair.bifurcations import (
     find_orbits,
     periodic_orbit,
 )
+from gearpair.boundaries import critical_shock, edge_state, manifolds
 from gearpair.drive import GearDrive
 from gearpair.ensembles import basins, parameter_map, survival, sweep
 from gearpair.motion import (
@@ -54,14 +56,18 @@ __all__ = [
     "article",
     "basins",
     "bifurcations",
+    "boundaries",
     "continue_bifurcation",
     "continue_orbit",
+    "critical_shock",
     "design",
+    "edge_state",
     "ensembles",
     "find_branches",
     "find_orbits",
     "impact_state",
     "lyapunov_exponents",
+    "manifolds",
     "mesh_stiffness",
     "methods",
     "motion",

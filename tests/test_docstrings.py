@@ -12,6 +12,7 @@ ROOMS = (
     "motion",
     "ensembles",
     "bifurcations",
+    "boundaries",
     "design",
     "methods",
     "article",

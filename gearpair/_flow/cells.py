@@ -80,8 +80,9 @@ class Cells(NamedTuple):
 @kernel
 def count_blocks(p: Coefficients, level: int) -> int:
     """How many blocks one stiffness level needs: cells, if the forcing has one harmonic."""
-    rate = fastest_rate(p.levels[level], p.damping_ratio, p.mesh_frequency)
-    rate = max(rate, 2.0 * p.damping_ratio)
+    damping_ratio = abs(p.damping_ratio)  # negative where time runs backward
+    rate = fastest_rate(p.levels[level], damping_ratio, p.mesh_frequency)
+    rate = max(rate, 2.0 * damping_ratio)
     span = (p.edges[level + 1] - p.edges[level]) * 2.0 * np.pi / p.mesh_frequency
     return max(1, int(np.ceil(span * rate / REACH)))
 
@@ -199,8 +200,8 @@ def contact_growth(p: Coefficients) -> float:
             c, s, ds = 1.0, span, 0.0
         a, b, e, d = c + zeta * s, s, (ds - zeta * zeta) * s, c - zeta * s
         xx, xv, vx, vv = a * xx + b * vx, a * xv + b * vv, e * xx + d * vx, e * xv + d * vv
-    half = 0.5 * abs(xx + vv)
-    return (half + np.sqrt(max(half * half - 1.0, 0.0))) * np.exp(-zeta * period)
+    half = max(0.5 * abs(xx + vv), 1.0)
+    return (half + np.sqrt(half * half - 1.0)) * np.exp(-zeta * period)
 
 
 @kernel

@@ -13,6 +13,7 @@ from gearpair.ensembles.ranges import (
     range_of,
     representatives,
 )
+from gearpair.ensembles.saddles import chaotic_saddle
 from gearpair.ensembles.shares import basin_stability, motion_shares
 from gearpair.ensembles.stores import decoded
 from gearpair.ensembles.sweeps import parameter_map, sweep
@@ -31,6 +32,7 @@ __all__ = [
     "basin_stability",
     "basins",
     "carried_sweeps",
+    "chaotic_saddle",
     "continue_attractors",
     "decoded",
     "escape_rate",

@@ -21,6 +21,7 @@ from gearpair.plotting.article import (
     stiffness_trends,
 )
 from gearpair.plotting.bifurcations import bifurcation_curves, branches
+from gearpair.plotting.boundaries import chaotic_saddle, manifolds
 from gearpair.plotting.diagrams import (
     attractor_shares,
     bifurcation_diagram,
@@ -77,6 +78,7 @@ __all__ = [
     "branches",
     "certificate",
     "certified_steps",
+    "chaotic_saddle",
     "compliance_stack",
     "contact_ratio_cloud",
     "coverage_by_phase",
@@ -92,6 +94,7 @@ __all__ = [
     "impact_states",
     "interpolation_error",
     "load_shares",
+    "manifolds",
     "mark_boundaries",
     "mesh_curves",
     "motion_colour",

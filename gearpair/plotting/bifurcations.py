@@ -62,13 +62,13 @@ def branches(
             ax.plot(b.value, b.x, MARKERS[b.kind], markersize=3.6, color=colour, zorder=5, **rim)
         ax.set_xlabel(axis_label(branch.parameter))
     ax.set_ylabel(axis_label("section"))
-    _add_key(
+    add_key(
         ax, [Line2D([], [], marker=MARKERS[k], linestyle="", color="#555555", label=k) for k in MARKERS if k in kinds]
     )
     return ax
 
 
-def _add_key(ax: Axes, handles: list[Line2D]) -> None:
+def add_key(ax: Axes, handles: list[Line2D]) -> None:
     """A key inside the axes, beside the legend of motions that may stand above them."""
     if handles:
         names = [str(handle.get_label()) for handle in handles]
@@ -121,5 +121,5 @@ def bifurcation_curves(
     if colour is None:
         periods = sorted({curve.period for curve in drawn})
         handles += [Line2D([], [], color=motion_colour(m), label=str(m)) for m in map(periodic, periods)]
-    _add_key(ax, handles)
+    add_key(ax, handles)
     return ax

@@ -1,0 +1,18 @@
+"""The boundary between two motions: the saddle on it, its manifolds, and the smallest shock that crosses it."""
+
+from gearpair.boundaries.edges import EdgeState, EdgeStatus, edge_state
+from gearpair.boundaries.growing import Manifolds, manifolds
+from gearpair.boundaries.sections import at_phase, backward_map
+from gearpair.boundaries.shocks import CriticalShock, critical_shock
+
+__all__ = [
+    "CriticalShock",
+    "EdgeState",
+    "EdgeStatus",
+    "Manifolds",
+    "at_phase",
+    "backward_map",
+    "critical_shock",
+    "edge_state",
+    "manifolds",
+]

@@ -1,0 +1,78 @@
+"""What lies between attractors: the manifolds of a saddle on a boundary, and the chaotic saddle behind a transient."""
+
+from typing import Any
+
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+
+from gearpair.boundaries.growing import Manifolds
+from gearpair.plotting.bifurcations import add_key
+from gearpair.plotting.style import MOTION_COLOURS, new_axes
+from gearpair.quantities import axis_label
+
+STABLE, UNSTABLE = "#111111", "#B2182B"  # told apart from all motions', and from each other without colours by the dash
+HALO = withStroke(linewidth=2.4, foreground="white")
+
+
+def manifolds(found: Manifolds, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+    """The curves on which motions approach a saddle (solid) and leave it (dashed), with its section points (diamonds).
+
+    Parameters
+    ----------
+    found : Manifolds
+        Of `gearpair.manifolds`.
+    ax : Axes, optional
+        For example that of a `basins`, to draw over it: its limits and its legend stay.
+    legend : bool
+        Whether the curves are named, inside the axes.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> saddle = gp.periodic_orbit(gp.Oscillator(), -1.5688, -1.0135, 1)
+    >>> ax = manifolds(gp.manifolds(saddle, length=3.0))
+    >>> sorted({line.get_label() for line in ax.lines})
+    ['saddle', 'stable manifold', 'unstable manifold']
+    """
+    over = ax is not None
+    ax = new_axes(ax, 5.0)
+    limits = ax.get_xlim(), ax.get_ylim()
+    looks: dict[str, dict[str, Any]] = {
+        "stable": {"color": STABLE, "linewidth": 1.1},
+        "unstable": {"color": UNSTABLE, "linewidth": 0.9, "linestyle": (0, (5, 1.2))},
+    }
+    handles: list[Line2D] = []
+    for name, look in looks.items():
+        for curve in getattr(found, name):
+            (line,) = ax.plot(*curve.T, label=f"{name} manifold", path_effects=[HALO], zorder=3, **look)
+        handles.append(line)
+    (dots,) = ax.plot(
+        *found.orbit.points.T, "D", markersize=5.0, color=STABLE, markeredgecolor="white", label="saddle", zorder=4
+    )
+    if over:
+        ax.set(xlim=limits[0], ylim=limits[1])
+    else:
+        ax.set(xlabel=axis_label("x"), ylabel=axis_label("v"))
+    if legend:
+        add_key(ax, [*handles, dots])
+    return ax
+
+
+def chaotic_saddle(
+    result: xr.Dataset, ax: Axes | None = None, *, colour: str = MOTION_COLOURS["chaotic transient"]
+) -> Axes:
+    """The section points near a chaotic saddle, of `gearpair.ensembles.chaotic_saddle`: one line of dots.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> found = gp.ensembles.chaotic_saddle(gp.Oscillator(mesh_frequency=1.09), [-1.0, 0.0, 1.0, 2.0], -1.0)
+    >>> len(chaotic_saddle(found).lines[0].get_xdata()) == found.sizes["point"]
+    True
+    """
+    ax = new_axes(ax, 5.0)
+    ax.plot(result.x.values, result.v.values, ".", markersize=1.2, markeredgewidth=0.0, color=colour, rasterized=True)
+    ax.set(xlabel=axis_label("x"), ylabel=axis_label("v"))
+    return ax
