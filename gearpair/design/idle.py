@@ -145,7 +145,7 @@ def idle_rattle(
     mass, rate = _mass_and_rate(drive)
     columns = np.full((4, len(speeds)), np.nan)
     for i, state in enumerate(carried_runs([oscillators], None)[0][0]):
-        if state.status in (Status.ESCAPED, Status.CAPPED, Status.NOT_RUN):
+        if state.status in (Status.ESCAPED, Status.CAPPED):
             continue
         found = impact_measures(state, n_periods=200)
         per_second = state.oscillator.mesh_frequency * rate / (2.0 * np.pi)

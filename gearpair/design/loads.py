@@ -43,7 +43,7 @@ def measure_motion(drive: GearDrive, state: SteadyState) -> dict[str, float]:
     >>> round(loads["mesh_force"]), round(loads["dynamic_factor"], 2), round(loads["impact_rate"])
     (9655, 3.85, 4533)
     """
-    if state.status in (Status.ESCAPED, Status.CAPPED, Status.NOT_RUN):
+    if state.status in (Status.ESCAPED, Status.CAPPED):
         return dict.fromkeys(MEASURES, np.nan)
     osc, unit_um = state.oscillator, drive.half_backlash_m * 1e6
     n_periods = state.period or CHAOTIC_PERIODS

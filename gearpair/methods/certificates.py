@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count
+from gearpair._cores import aside
 from gearpair._flow.closed_form import DEGREE, REACH, TERMS, evaluate_jerk
 from gearpair._flow.event_search import MAX_STEPS, MONOTONE, ROUNDING, certified_step
 from gearpair._flow.records import SEGMENT_COLUMNS, Segments
 from gearpair._flow.walk import EVENT_UNDECIDED, Details, walk
-from gearpair.motion.trajectories import check_start, raise_unless_ok
+from gearpair.motion.trajectories import WATCHED, check_start, raise_unless_ok
 from gearpair.oscillator import Oscillator
 from gearpair.table import Table
 
@@ -184,7 +185,8 @@ def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Se
     for _ in range(2):  # once to count the segments, once to list them
         counts = np.zeros(1, np.int64)
         details = Details(segments=Segments(rows, counts))
-        status, _x, _v = walk(osc.cells, x, v, n_periods, np.empty(TERMS), None, None, details)
+        arguments = (osc.cells, x, v, n_periods, np.empty(TERMS), None, None, details)
+        status, _x, _v = aside(walk, *arguments, periods=n_periods * WATCHED)
         raise_unless_ok(status, n_periods)
         rows = np.empty((int(counts[0]), SEGMENT_COLUMNS)) if len(rows) == 0 else rows
     return [

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MAX_STEPS_PER_PERIOD = 100_000
+PERIODS_OF_EXACT_FLOW = 100  # that take as long as a mesh period by Runge and Kutta, or so
 
 
 def runge_kutta_section(
@@ -262,5 +263,8 @@ class Integrator:
             steps = Steps(float(self.rtol), float(atol), self.steps or 0, MAX_STEPS_PER_PERIOD * n_periods)
         lanes = lanes_of(oscillators, np.broadcast_to(check_start(x, v), (n, 2)), ONE)
         points, counts = np.empty((n, n_kept, 2)), np.zeros((n, 2), np.int64)
-        on_all_cores(integrate_lanes, (lanes, chain, n_periods, steps, points, counts), n, chain)
+        # One chain alone is carried along value by value, so that Ctrl-C may come in between.
+        block, longest = 1 if chain == n else chain, n_periods * PERIODS_OF_EXACT_FLOW
+        arguments = (lanes, chain, n_periods, steps, points, counts)
+        on_all_cores(integrate_lanes, arguments, n, block, cores=chain < n, longest=longest)
         return points, counts[:, 0], counts[:, 1]
