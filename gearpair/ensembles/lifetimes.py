@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from tqdm import tqdm
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_count, check_number, checked
 from gearpair._cores import on_all_cores
 from gearpair._flow.capture import COLUMNS, OWNER
 from gearpair._flow.settle import CAPTURED
@@ -35,6 +35,7 @@ FIRST_LOOK, NEXT_LOOK = 2_000, 4
 ON_ITS_WAY, UNBOUNDED = -1, -2  # what stands for an attractor's number
 
 
+@checked
 def survival(
     osc: Oscillator,
     x: ArrayLike,
@@ -126,6 +127,7 @@ def survival(
     return with_numbers(dataset(osc, variables, {}, n_periods=n_periods, discard=discard, confidence=confidence))
 
 
+@checked
 def survival_along(
     osc: Oscillator,
     parameter: str,

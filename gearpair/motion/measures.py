@@ -5,8 +5,9 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_count
+from gearpair._checks import check_count, checked
 from gearpair._cores import aside
+from gearpair._equality import equal_by_value
 from gearpair._flow import measures as at
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.observe import measure
@@ -16,6 +17,7 @@ from gearpair.motion.steady import SteadyState
 from gearpair.motion.trajectories import WATCHED
 
 
+@equal_by_value
 @dataclass(frozen=True, kw_only=True)
 class ImpactMeasures:
     """What the teeth of a steady motion bear; all dimensionless.
@@ -64,6 +66,7 @@ class ImpactMeasures:
 MEASURES = tuple(field.name for field in fields(ImpactMeasures))
 
 
+@checked
 def impact_measures(state: SteadyState, *, n_periods: int = 2000) -> ImpactMeasures:
     """Blows, forces and displacements of a steady motion that stayed bounded.
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
-from gearpair._checks import check_count, check_options
+from gearpair._checks import check_count, check_options, checked
 from gearpair._cores import on_all_cores
 from gearpair._flow.capture import COLUMNS
 from gearpair._flow.measures import N_MEASURES
@@ -156,6 +156,7 @@ CHART = SettleSettings(max_period=16, n_exponent=300, n_samples=16)
 PERIODS = SettleSettings(n_exponent=20, n_watch=0, n_samples=1)
 
 
+@checked
 def transient_periods(osc: Oscillator) -> int:
     """Mesh periods that a transient needs to fall to 9 digits at best: ``20 / (zeta T)``, within 500 to 20 000.
 

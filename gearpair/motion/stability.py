@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_count
+from gearpair._checks import check_array, check_count, checked
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.observe import stretch
 from gearpair.motion.trajectories import check_start, passed, raise_unless_ok
@@ -14,6 +14,7 @@ from gearpair.oscillator import Oscillator
 AT_ONCE = 100_000  # mesh periods between two chances to stop
 
 
+@checked
 def lyapunov_exponents(
     osc: Oscillator, x: float, v: float, n_periods: int, *, n_transient: int = 500
 ) -> NDArray[np.float64]:
@@ -57,6 +58,7 @@ def lyapunov_exponents(
     return np.array([largest, -2.0 * osc.damping_ratio - largest])
 
 
+@checked
 def multipliers_of(monodromy: NDArray[np.float64]) -> NDArray[np.complex128]:
     """Eigenvalues of 2 x 2 matrices, shape (..., 2, 2), the largest modulus first (then the larger imaginary part).
 
@@ -65,6 +67,9 @@ def multipliers_of(monodromy: NDArray[np.float64]) -> NDArray[np.complex128]:
     >>> multipliers_of(np.array([[0.0, -0.25], [1.0, 0.0]])).tolist()
     [0.5j, -0.5j]
     """
+    monodromy = check_array("monodromy", monodromy, finite=False)
+    if monodromy.shape[-2:] != (2, 2):
+        raise ValueError(f"monodromy must be matrices of shape (..., 2, 2), got shape {monodromy.shape}")
     half = 0.5 * (monodromy[..., 0, 0] + monodromy[..., 1, 1])
     determinant = monodromy[..., 0, 0] * monodromy[..., 1, 1] - monodromy[..., 0, 1] * monodromy[..., 1, 0]
     root = np.sqrt(half * half - determinant + 0j)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count
+from gearpair._checks import check_array, check_count, checked
 from gearpair._cores import SHORT, aside, on_all_cores
 from gearpair._equality import equal_by_value
 from gearpair._flow.closed_form import TERMS
@@ -86,16 +87,19 @@ class Trajectory:
 
 
 def check_starts(x: ArrayLike, v: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Broadcast starts against each other, or raise a ValueError that says what is wrong with them."""
+    """Broadcast starts against each other, those of xarray by dimension; a ValueError says what is wrong with them."""
+    given: list[Any] = [x, v]
+    if all(hasattr(each, "dims") for each in given):
+        from xarray import broadcast
+
+        given = list(broadcast(*given))
+    xs, vs = check_array("x", given[0]), check_array("v", given[1])
     try:
-        xs, vs = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(v, dtype=float))
-    except (TypeError, ValueError):
+        xs, vs = np.broadcast_arrays(xs, vs)
+    except ValueError:
         raise ValueError(
             f"x and v must be numbers of shapes that broadcast, got shapes {np.shape(x)} and {np.shape(v)}"
         ) from None
-    for name, values in (("x", xs), ("v", vs)):
-        if not np.all(np.isfinite(values)):
-            raise ValueError(f"{name} must be finite, got {values[~np.isfinite(values)].flat[0]}")
     return xs, vs
 
 
@@ -107,6 +111,7 @@ def check_start(x: ArrayLike, v: ArrayLike) -> tuple[float, float]:
     return float(xs), float(vs)
 
 
+@checked
 def stroboscopic_map(
     osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -154,6 +159,7 @@ def stroboscopic_map(
     return ends[:, 0].reshape(xs.shape), ends[:, 1].reshape(xs.shape)
 
 
+@checked
 def trajectory(
     osc: Oscillator,
     x: float,
