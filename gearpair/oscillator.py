@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_array, check_class, check_count, check_fields, check_number, shown
+from gearpair._checks import check_array, check_class, check_count, check_fields, check_number, checked, shown
 from gearpair._flow.cells import Cells, Coefficients, build_cells
 from gearpair.quantities import ROWS
 from gearpair.stiffness import Rectangle, StiffnessWave
@@ -132,6 +132,7 @@ class Oscillator:
         rectangle = WAVE_SCALARS if self.stiffness.rectangle is not None else ()
         return (*SCALARS, *rectangle, *wave, *harmonics)
 
+    @checked
     def parameter(self, name: str) -> float:
         """The present value of one of `parameters`."""
         self._check_name(name)

@@ -354,3 +354,12 @@ def test_a_large_attractor_is_followed_from_where_it_is():
     assert str(wide.ends[1]) == "max_steps"
     twice = -2.0 * state.x_min
     assert twice < -narrow.x_min.min() < twice + 1.0 < -wide.x_min.min()
+
+
+def test_methods_too_say_what_they_are_handed_by_mistake():
+    with pytest.raises(TypeError, match="pair must be a SpurPair, got a MeshStiffness: hand over its pair"):
+        gp.GearDrive.from_pair(
+            DRIVE.mesh, pinion_torque_nm=1.0, backlash_um=80.0, transmission_error_um=5.0, damping_ratio=0.1
+        )
+    with pytest.raises(TypeError, match="name must be a text, got 3"):
+        BASELINE.parameter(3)
