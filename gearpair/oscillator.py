@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 import math
 import re
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from difflib import get_close_matches
 from functools import cached_property
@@ -12,10 +14,10 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count, check_fields, check_number
+from gearpair._checks import check_array, check_class, check_count, check_fields, check_number, checked, shown
 from gearpair._flow.cells import Cells, Coefficients, build_cells
 from gearpair.quantities import ROWS
-from gearpair.stiffness import StiffnessWave
+from gearpair.stiffness import Rectangle, StiffnessWave
 
 LARGEST_ORDER = 200  # of a harmonic: the cells of a period are as many times ten
 LARGEST_DAMPING_RATIO = 100.0
@@ -130,6 +132,7 @@ class Oscillator:
         rectangle = WAVE_SCALARS if self.stiffness.rectangle is not None else ()
         return (*SCALARS, *rectangle, *wave, *harmonics)
 
+    @checked
     def parameter(self, name: str) -> float:
         """The present value of one of `parameters`."""
         self._check_name(name)
@@ -192,6 +195,27 @@ class Oscillator:
             whole["stiffness"] = StiffnessWave(tuple(wave["edges"]), tuple(wave["levels"]))
         return whole
 
+    @classmethod
+    def from_attrs(cls, result: Any) -> Self:
+        """The oscillator that a result belongs to, from the attributes of its dataset: also one read from a file.
+
+        Examples
+        --------
+        >>> from gearpair import sweep
+        >>> osc = Oscillator(mean_force=0.2)
+        >>> Oscillator.from_attrs(sweep(osc, "mesh_frequency", [1.6])) == osc
+        True
+        """
+        text = getattr(result, "attrs", {}).get("oscillator")
+        if not isinstance(text, str):
+            raise ValueError(f"result must be a dataset whose attributes name its oscillator, got {shown(result)}")
+        try:
+            found = _built(ast.parse(text, mode="eval").body, {cls.__name__: cls, **PARTS})
+        except (SyntaxError, TypeError) as error:
+            raise ValueError(f"the attribute 'oscillator' must be the repr of one, got {shown(text)}") from error
+        check_class("the attribute 'oscillator'", found, cls)
+        return found
+
     def _check_name(self, name: str) -> None:
         if name in self.parameters:
             return
@@ -212,7 +236,7 @@ class Oscillator:
 
     def force(self, tau: ArrayLike) -> NDArray[np.float64]:
         """The right-hand side ``F_m + F_ah Omega^2 sin(Omega tau + phi)``, with harmonics, at `tau` (any shape)."""
-        angle = self.mesh_frequency * np.asarray(tau, dtype=float)
+        angle = self.mesh_frequency * check_array("tau", tau)
         total = self.mean_force + np.zeros_like(angle)
         for order, amplitude, phase in self.all_harmonics:
             total = total + amplitude * (order * self.mesh_frequency) ** 2 * np.sin(order * angle + phase)
@@ -220,7 +244,7 @@ class Oscillator:
 
     def error(self, tau: ArrayLike) -> NDArray[np.float64]:
         """The transmission error over half the backlash, ``F_ah sin(Omega tau + phi)`` with harmonics, at `tau`."""
-        angle = self.mesh_frequency * np.asarray(tau, dtype=float)
+        angle = self.mesh_frequency * check_array("tau", tau)
         total = np.zeros_like(angle)
         for order, amplitude, phase in self.all_harmonics:
             total = total + amplitude * np.sin(order * angle + phase)
@@ -246,9 +270,23 @@ class Oscillator:
         return build_cells(self.coefficients)
 
 
+def _built(node: ast.expr, classes: Mapping[str, Any]) -> Any:
+    """What an expression of constants, tuples and calls of `classes` by keywords builds; a TypeError for any other."""
+    if isinstance(node, ast.Tuple):
+        return tuple(_built(each, classes) for each in node.elts)
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and not node.args and node.func.id in classes:
+        return classes[node.func.id](**{str(each.arg): _built(each.value, classes) for each in node.keywords})
+    try:
+        return ast.literal_eval(node)
+    except ValueError as error:
+        raise TypeError("neither a constant nor a part of an oscillator") from error
+
+
 def check_harmonics(name: str, harmonics: Any, lowest: int = 2) -> tuple[Harmonic, ...]:
     """`harmonics` of orders from `lowest` as named tuples, or a ValueError that says which is wrong."""
     checked: list[Harmonic] = []
+    if isinstance(harmonics, (str, bytes)) or not isinstance(harmonics, Iterable):
+        raise ValueError(f"{name} must be a sequence of (order, amplitude, phase), got {harmonics!r}")
     for i, each in enumerate(harmonics):
         if np.shape(each) not in ((2,), (3,)):
             raise ValueError(f"{name}[{i}] must be (order, amplitude, phase), got {each!r}")
@@ -260,6 +298,7 @@ def check_harmonics(name: str, harmonics: Any, lowest: int = 2) -> tuple[Harmoni
     return tuple(checked)
 
 
+PARTS = {"StiffnessWave": StiffnessWave, "Rectangle": Rectangle, "Harmonic": Harmonic}  # of the repr of an oscillator
 WHOLE = ("stiffness", "harmonics")  # the fields that are no scalars
 SCALARS = tuple(f.name for f in fields(Oscillator) if f.name not in WHOLE)
 WAVE_SCALARS = ("contact_ratio", "a", "b")
