@@ -85,6 +85,11 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    """What there is, with what is imported when it is first used."""
+    return sorted({*globals(), *__all__})
+
+
 def __getattr__(name: str) -> Any:
     """`gearpair.plotting`, imported when it is first used: it brings matplotlib."""
     if name == "plotting":

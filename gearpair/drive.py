@@ -8,7 +8,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from gearpair._checks import check_count, check_fields, check_number
+from gearpair._checks import check_count, check_fields, check_number, checked
 from gearpair.oscillator import Harmonic, Oscillator, check_harmonics
 from gearpair.stiffness import StiffnessWave
 from gearpair.teeth import GearBlank, MeshStiffness, SpurPair, mesh_stiffness
@@ -107,6 +107,7 @@ class GearDrive:
         object.__setattr__(self, "error_harmonics", check_harmonics("error_harmonics", self.error_harmonics))
 
     @classmethod
+    @checked
     def from_pair(
         cls,
         pair: SpurPair,

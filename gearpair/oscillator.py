@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import ast
 import math
+import re
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
+from difflib import get_close_matches
 from functools import cached_property
 from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count, check_fields, check_number
+from gearpair._checks import check_array, check_class, check_count, check_fields, check_number, checked, shown
 from gearpair._flow.cells import Cells, Coefficients, build_cells
-from gearpair.stiffness import StiffnessWave
+from gearpair.quantities import ROWS
+from gearpair.stiffness import Rectangle, StiffnessWave
 
 LARGEST_ORDER = 200  # of a harmonic: the cells of a period are as many times ten
 LARGEST_DAMPING_RATIO = 100.0
@@ -109,12 +114,32 @@ class Oscillator:
 
     @property
     def parameters(self) -> tuple[str, ...]:
-        """The names of the scalars that `replace`, sweeps and continuation can change."""
-        return SCALARS + (WAVE_SCALARS if self.stiffness.rectangle is not None else ())
+        """The names of the scalars that `replace`, sweeps and continuation can change.
 
+        Those of parts have the part's number: ``"levels[0]"`` and ``"edges[1]"`` of the stiffness wave, whose first
+        edge is always 0, and of the harmonics, by their order, ``"harmonics[3].amplitude"`` and
+        ``"harmonics[3].phase"``.
+
+        Examples
+        --------
+        >>> Oscillator(harmonics=[(3, 0.05, 0.0)]).parameters[8:]
+        ('levels[0]', 'levels[1]', 'edges[1]', 'harmonics[3].amplitude', 'harmonics[3].phase')
+        """
+        levels = range(len(self.stiffness.levels))
+        wave = [*(f"levels[{i}]" for i in levels), *(f"edges[{i}]" for i in levels[1:])]
+        orders = dict.fromkeys(each.order for each in self.harmonics)
+        harmonics = [f"harmonics[{order}].{what}" for order in orders for what in ("amplitude", "phase")]
+        rectangle = WAVE_SCALARS if self.stiffness.rectangle is not None else ()
+        return (*SCALARS, *rectangle, *wave, *harmonics)
+
+    @checked
     def parameter(self, name: str) -> float:
         """The present value of one of `parameters`."""
         self._check_name(name)
+        if part := part_of(name):
+            if part.field == "harmonics":
+                return float(getattr(self.harmonics[self._place(part.number)], part.what))
+            return float(getattr(self.stiffness, part.field)[part.number])
         return float(getattr(self.stiffness.rectangle if name in WAVE_SCALARS else self, name))
 
     def replace(self, **changes: Any) -> Self:
@@ -124,11 +149,13 @@ class Oscillator:
         ----------
         **changes
             Any field of the class; also ``contact_ratio``, ``a`` and ``b`` where the stiffness is
-            the article's rectangle, whose reading is kept.
+            the article's rectangle, whose reading is kept; and parts by their names in `parameters`, as
+            ``**{"harmonics[3].amplitude": 0.1}``. A wave of which one level or edge is changed is no rectangle.
         """
         for name in changes:
             if name not in WHOLE:
                 self._check_name(name)
+        changes = self._with_parts(changes)
         wave = {name: changes.pop(name) for name in WAVE_SCALARS if name in changes}
         if wave:
             if "stiffness" in changes:
@@ -138,6 +165,57 @@ class Oscillator:
             changes["stiffness"] = StiffnessWave.rectangular(**{**vars(rectangle), **wave})
         return replace(self, **changes)
 
+    def _place(self, order: int) -> int:
+        """Where among the harmonics the one of an order stands."""
+        return [each.order for each in self.harmonics].index(order)
+
+    def _with_parts(self, changes: dict[str, Any]) -> dict[str, Any]:
+        """The changes with whole fields in place of their parts."""
+        parts = {name: part for name in changes if (part := part_of(name))}
+        whole = {name: value for name, value in changes.items() if name not in parts}
+        wave = {"edges": list(self.stiffness.edges), "levels": list(self.stiffness.levels)}
+        harmonics = list(self.harmonics)
+        for name, part in parts.items():
+            for other in ("harmonics",) if part.field == "harmonics" else ("stiffness", *WAVE_SCALARS):
+                if other in whole:
+                    raise ValueError(f"give either {other} or {name}, not both")
+            value = check_number(name, changes[name])
+            if part.field == "harmonics":
+                place = self._place(part.number)
+                order, amplitude, phase = harmonics[place]
+                harmonics[place] = (
+                    Harmonic(order, value, phase) if part.what == "amplitude" else Harmonic(order, amplitude, value)
+                )
+            else:
+                wave[part.field][part.number] = value
+        fields_of = {part.field for part in parts.values()}
+        if "harmonics" in fields_of:
+            whole["harmonics"] = tuple(harmonics)
+        if fields_of & wave.keys():
+            whole["stiffness"] = StiffnessWave(tuple(wave["edges"]), tuple(wave["levels"]))
+        return whole
+
+    @classmethod
+    def from_attrs(cls, result: Any) -> Self:
+        """The oscillator that a result belongs to, from the attributes of its dataset: also one read from a file.
+
+        Examples
+        --------
+        >>> from gearpair import sweep
+        >>> osc = Oscillator(mean_force=0.2)
+        >>> Oscillator.from_attrs(sweep(osc, "mesh_frequency", [1.6])) == osc
+        True
+        """
+        text = getattr(result, "attrs", {}).get("oscillator")
+        if not isinstance(text, str):
+            raise ValueError(f"result must be a dataset whose attributes name its oscillator, got {shown(result)}")
+        try:
+            found = _built(ast.parse(text, mode="eval").body, {cls.__name__: cls, **PARTS})
+        except (SyntaxError, TypeError) as error:
+            raise ValueError(f"the attribute 'oscillator' must be the repr of one, got {shown(text)}") from error
+        check_class("the attribute 'oscillator'", found, cls)
+        return found
+
     def _check_name(self, name: str) -> None:
         if name in self.parameters:
             return
@@ -145,11 +223,20 @@ class Oscillator:
             raise ValueError(
                 f"{name} can be changed only where the stiffness wave is rectangular, got {self.stiffness!r}"
             )
-        raise ValueError(f"unknown parameter {name!r}; the parameters are {', '.join(self.parameters)}")
+        words = {each.lower(): each for each in self.parameters} | {
+            row.symbol.lower(): row.name for row in ROWS if row.name in SCALARS and row.symbol
+        }
+        meant = get_close_matches(name.lower(), words, 1)
+        hint = f" (did you mean {words[meant[0]]!r}?)" if meant else ""
+        named = [each for each in self.parameters if part_of(each) is None]
+        raise ValueError(
+            f"unknown parameter {name!r}{hint}; the parameters are {', '.join(named)} and, of the parts that it has, "
+            "levels[i], edges[i], harmonics[order].amplitude and harmonics[order].phase"
+        )
 
     def force(self, tau: ArrayLike) -> NDArray[np.float64]:
         """The right-hand side ``F_m + F_ah Omega^2 sin(Omega tau + phi)``, with harmonics, at `tau` (any shape)."""
-        angle = self.mesh_frequency * np.asarray(tau, dtype=float)
+        angle = self.mesh_frequency * check_array("tau", tau)
         total = self.mean_force + np.zeros_like(angle)
         for order, amplitude, phase in self.all_harmonics:
             total = total + amplitude * (order * self.mesh_frequency) ** 2 * np.sin(order * angle + phase)
@@ -157,7 +244,7 @@ class Oscillator:
 
     def error(self, tau: ArrayLike) -> NDArray[np.float64]:
         """The transmission error over half the backlash, ``F_ah sin(Omega tau + phi)`` with harmonics, at `tau`."""
-        angle = self.mesh_frequency * np.asarray(tau, dtype=float)
+        angle = self.mesh_frequency * check_array("tau", tau)
         total = np.zeros_like(angle)
         for order, amplitude, phase in self.all_harmonics:
             total = total + amplitude * np.sin(order * angle + phase)
@@ -183,9 +270,23 @@ class Oscillator:
         return build_cells(self.coefficients)
 
 
+def _built(node: ast.expr, classes: Mapping[str, Any]) -> Any:
+    """What an expression of constants, tuples and calls of `classes` by keywords builds; a TypeError for any other."""
+    if isinstance(node, ast.Tuple):
+        return tuple(_built(each, classes) for each in node.elts)
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and not node.args and node.func.id in classes:
+        return classes[node.func.id](**{str(each.arg): _built(each.value, classes) for each in node.keywords})
+    try:
+        return ast.literal_eval(node)
+    except ValueError as error:
+        raise TypeError("neither a constant nor a part of an oscillator") from error
+
+
 def check_harmonics(name: str, harmonics: Any, lowest: int = 2) -> tuple[Harmonic, ...]:
     """`harmonics` of orders from `lowest` as named tuples, or a ValueError that says which is wrong."""
     checked: list[Harmonic] = []
+    if isinstance(harmonics, (str, bytes)) or not isinstance(harmonics, Iterable):
+        raise ValueError(f"{name} must be a sequence of (order, amplitude, phase), got {harmonics!r}")
     for i, each in enumerate(harmonics):
         if np.shape(each) not in ((2,), (3,)):
             raise ValueError(f"{name}[{i}] must be (order, amplitude, phase), got {each!r}")
@@ -197,6 +298,26 @@ def check_harmonics(name: str, harmonics: Any, lowest: int = 2) -> tuple[Harmoni
     return tuple(checked)
 
 
+PARTS = {"StiffnessWave": StiffnessWave, "Rectangle": Rectangle, "Harmonic": Harmonic}  # of the repr of an oscillator
 WHOLE = ("stiffness", "harmonics")  # the fields that are no scalars
 SCALARS = tuple(f.name for f in fields(Oscillator) if f.name not in WHOLE)
 WAVE_SCALARS = ("contact_ratio", "a", "b")
+# A part's name, its number and, of a harmonic, what of it.
+PART = re.compile(r"(levels|edges)\[(\d+)\]|(harmonics)\[(\d+)\]\.(amplitude|phase)")
+
+
+class Part(NamedTuple):
+    """A scalar that is a part of a field."""
+
+    field: str  # levels, edges or harmonics
+    number: int  # which; of a harmonic its order
+    what: str  # amplitude or phase of a harmonic
+
+
+def part_of(name: str) -> Part | None:
+    """The part that a parameter's name stands for; None for a name of another form."""
+    found = PART.fullmatch(name)
+    if found is None:
+        return None
+    level, i, harmonic, order, what = found.groups()
+    return Part(level or harmonic, int(i or order), what or "")

@@ -3,6 +3,7 @@
 One row for each; whoever shows a quantity takes its name, its symbol and its unit from here.
 """
 
+import re
 from typing import NamedTuple
 
 # How the letters of plain symbols are spelled, and what stands for them on a page.
@@ -170,10 +171,32 @@ ROWS = (
 QUANTITIES = {row.name: row for row in ROWS}
 
 
+def part(name: str) -> Quantity | None:
+    """What a part of a field is called (``"levels[0]"``, ``"harmonics[3].phase"``); None for another name."""
+    found = re.fullmatch(r"(levels|edges|harmonics)\[(\d+)\](?:\.(amplitude|phase))?", name)
+    if found is None:
+        return None
+    field, i, what = found.groups()
+    if field == "levels":
+        return Quantity(name, "stiffness level {}", f"k_{i}", rf"k_{{{i}}}")
+    if field == "edges":
+        return Quantity(name, "start of stiffness level {}, in mesh periods", f"k_{i}", rf"k_{{{i}}}")
+    if what == "phase":
+        return Quantity(name, f"phase of harmonic {i} {{}}", f"phi_{i}", rf"\varphi_{{{i}}}", "rad")
+    return Quantity(name, f"amplitude of harmonic {i} {{}}", f"F_{i}", rf"F_{{{i}}}")
+
+
+def quantity(name: str) -> Quantity | None:
+    """The quantity of a name, also of an attractor's, a set's or a part's; None if it stands for none."""
+    return QUANTITIES.get(name) or part(name) or QUANTITIES.get(name.removeprefix("attractor_").removeprefix("set_"))
+
+
 def attributes(name: str) -> dict[str, str]:
     """Long name and units of a dataset's variable, by its name; those of an attractor or a set are of its motion."""
-    quantity = QUANTITIES.get(name) or QUANTITIES[name.removeprefix("attractor_").removeprefix("set_")]
-    return {"long_name": quantity.long_name, "units": quantity.unit}
+    known = quantity(name)
+    if known is None:
+        raise KeyError(name)
+    return {"long_name": known.long_name, "units": known.unit}
 
 
 def symbol(name: str) -> str:
@@ -184,7 +207,8 @@ def symbol(name: str) -> str:
     >>> symbol("mesh_frequency"), symbol("a")
     ('Omega_h', 'a')
     """
-    return QUANTITIES[name].symbol
+    known = quantity(name)
+    return known.symbol if known else name
 
 
 def axis_label(name: str) -> str:
@@ -195,4 +219,5 @@ def axis_label(name: str) -> str:
     >>> axis_label("contact_ratio")
     'contact ratio $\\\\varepsilon$'
     """
-    return QUANTITIES[name].label if name in QUANTITIES else name
+    known = QUANTITIES.get(name) or part(name)
+    return known.label if known else name

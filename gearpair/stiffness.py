@@ -9,7 +9,7 @@ from typing import Literal, Self, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_choice, check_count, check_number
+from gearpair._checks import check_array, check_choice, check_count, check_number
 
 Reading = Literal["printed", "swapped"]
 READINGS = get_args(Reading)
@@ -50,7 +50,7 @@ class StiffnessWave:
 
     edges: tuple[float, ...]
     levels: tuple[float, ...]
-    rectangle: Rectangle | None = field(default=None, compare=False, repr=False)
+    rectangle: Rectangle | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         edges, levels = _numbers("edges", self.edges), _numbers("levels", self.levels)
@@ -129,7 +129,7 @@ class StiffnessWave:
 
     def __call__(self, fraction: ArrayLike) -> NDArray[np.float64]:
         """Stiffness at a time given in mesh periods (any real number, any shape)."""
-        phase = np.mod(np.asarray(fraction, dtype=float), 1.0)
+        phase = np.mod(check_array("fraction", fraction), 1.0)
         return np.asarray(self.levels)[np.searchsorted(self.edges, phase, side="right") - 1]
 
     def harmonics(self, n: int) -> NDArray[np.complex128]:

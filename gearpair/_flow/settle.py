@@ -39,7 +39,6 @@ from .states import (
     EXHAUSTED,
     FLOATING,
     GONE,
-    NOT_RUN,
     UNSETTLED,
     Course,
     Known,
@@ -239,6 +238,6 @@ def settle_lanes(first: int, last: int, lanes: Lanes, chain: int, limits: Limits
             built = lanes.own[i]
             cells = build_cells(coefficients_of(lanes, built))
         x, v = lanes.starts[i, 0], lanes.starts[i, 1]
-        if i % chain != 0 and not (GONE <= out.status[i - 1] <= NOT_RUN):
+        if i % chain != 0 and not (GONE <= out.status[i - 1] <= CAPPED):
             x, v = out.final[i - 1, 0], out.final[i - 1, 1]
         settle(cells, x, v, lanes.n_transient[i], limits, work, out, i)

@@ -10,7 +10,8 @@ from .cells import Coefficients
 from .closed_form import TERMS
 from .walk import OK
 
-PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED, NOT_RUN, EXHAUSTED, TRANSIENT, FLOATING = 0, 1, 2, 3, 4, 5, 6, 7, 8
+PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED, EXHAUSTED, TRANSIENT, FLOATING = 0, 1, 2, 3, 4, 5, 6, 7
+NOT_RUN = -1  # what a row is filled with beforehand
 
 
 class Limits(NamedTuple):
@@ -37,7 +38,7 @@ class Lanes(NamedTuple):
 class Settled(NamedTuple):
     """What became of each lane; the arrays have one row a lane, filled beforehand with what stands for "not run"."""
 
-    status: Integers  # (n,) PERIODIC ... NOT_RUN
+    status: Integers  # (n,) PERIODIC ... FLOATING, or NOT_RUN
     period: Integers  # (n,) 0 unless PERIODIC
     points: Array  # (n, n_samples, 2) successive section points; a cycle starts at its smallest X
     monodromy: Array  # (n, 2, 2) nan unless PERIODIC

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from gearpair._checks import check_count, checked
 from gearpair.article import published
 from gearpair.article.published import Boundary, Range
 from gearpair.ensembles.planes import attractor_motions
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+@checked
 def compare_ranges(stated: Iterable[Range], found: Sequence[MotionRange], digits: int = 3) -> Table:
     """The published ranges beside what was found inside each.
 
@@ -43,6 +45,7 @@ def compare_ranges(stated: Iterable[Range], found: Sequence[MotionRange], digits
     >>> [row[-1] for row in compare_ranges(published.ranges("damping_ratio"), found).rows]
     ['–', '73%', '100%']
     """
+    check_count("digits", digits, at_least=0)
     rows = []
     for each in stated:
         inside = [
@@ -58,6 +61,7 @@ def compare_ranges(stated: Iterable[Range], found: Sequence[MotionRange], digits
     return Table(["item", "range", "published", "periodic motions found", "agreement"], rows)
 
 
+@checked
 def compare_attractors(
     stated: Iterable[Range], planes: Mapping[float, xr.Dataset], least_share: float, digits: int = 3
 ) -> Table:
@@ -79,6 +83,7 @@ def compare_attractors(
     >>> compare_attractors(published.ranges("damping_ratio"), {0.022: plane}, least_share=0.1).rows[0]
     ('0.022', 'D5', 'period 1', 'period 1, double-sided; period 2, single-sided')
     """
+    check_count("digits", digits, at_least=0)
     ranges = list(stated)
     rows = []
     for value, plane in planes.items():
@@ -94,6 +99,7 @@ def compare_attractors(
     return Table([symbol(ranges[0].parameter), "item", "published", "attractors found"], rows)
 
 
+@checked
 def compare_boundaries(
     boundaries: Iterable[Boundary],
     stated: Sequence[Range],
@@ -124,6 +130,7 @@ def compare_boundaries(
     >>> table.rows[-1][-2:]
     ('0.0160', '-0.0005')
     """
+    check_count("digits", digits, at_least=0)
     changes = _changes(found, gap)
     rows = []
     for boundary, below, above in zip(boundaries, stated[:-1], stated[1:], strict=True):

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gearpair._checks import check_array, checked
+from gearpair._equality import equal_by_value
 from gearpair.ensembles.sweeps import sweep
 from gearpair.motion.names import motions_of
 from gearpair.oscillator import Oscillator
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class SweptWave:
     """An oscillator with one stiffness wave, and its carried sweeps in mesh frequency, both by rising frequency."""
@@ -35,6 +38,7 @@ class SweptWave:
         return float(np.mean([bool(one & other) for one, other in zip(*met, strict=True)]))
 
 
+@checked
 def sweep_waves(osc: Oscillator, waves: Mapping[str, StiffnessWave], frequencies: ArrayLike) -> dict[str, SweptWave]:
     """Carried sweeps up and down with each of several stiffness waves.
 
@@ -53,7 +57,7 @@ def sweep_waves(osc: Oscillator, waves: Mapping[str, StiffnessWave], frequencies
     >>> swept["flat"].share_met(swept["rectangle"])
     0.0
     """
-    values = np.asarray(frequencies, dtype=float)
+    values = check_array("frequencies", frequencies, ndim=1)
     swept = {}
     for name, wave in waves.items():
         own = osc.replace(mesh_frequency=float(values[0]), stiffness=wave)

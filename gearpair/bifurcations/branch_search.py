@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from gearpair._checks import check_count
-from gearpair.bifurcations.branches import SIZES, Branch, continue_orbit, largest_x
+from gearpair._checks import check_count, check_reach, checked
+from gearpair.bifurcations.branches import LARGEST_X, SIZES, Branch, continue_orbit, limit_of
 from gearpair.bifurcations.doubling import doubled_orbit
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.bifurcations.orbits import PeriodicOrbit, find_orbits, periodic_orbit
@@ -11,6 +11,7 @@ from gearpair.motion.same_orbit import lies_on
 from gearpair.oscillator import Oscillator
 
 
+@checked
 def find_branches(
     osc: Oscillator,
     parameter: str,
@@ -21,6 +22,7 @@ def find_branches(
     n_values: int = 11,
     n_starts: int = 100,
     largest_step: float = SIZES.largest,
+    largest_x: float = LARGEST_X,
 ) -> list[Branch]:
     """The branches of periodic orbits that a search finds in a range of one parameter.
 
@@ -31,8 +33,8 @@ def find_branches(
     Parameters
     ----------
     osc : Oscillator
-    parameter, lower, upper, largest_step
-        As in `continue_orbit`.
+    parameter, lower, upper, largest_step, largest_x
+        As in `continue_orbit`; orbits that reach further are left out.
     max_period, n_starts
         As in `find_orbits`, at each value; no longer period is followed either.
     n_values : int
@@ -44,27 +46,28 @@ def find_branches(
     >>> [(branch.period, [b.kind for b in branch.bifurcations]) for branch in branches]
     [(1, ['flip'])]
     """
+    lower, upper = check_reach("lower and upper", (lower, upper))
     branches: list[Branch] = []
     for value in np.linspace(lower, upper, check_count("n_values", n_values)).tolist():
         waiting: list[PeriodicOrbit | Bifurcation] = [
             *find_orbits(osc.replace(**{parameter: value}), max_period, n_starts=n_starts)
         ]
         while waiting:
-            orbit = _start(branches, waiting.pop(0), lower, upper)
+            orbit = _start(branches, waiting.pop(0), lower, upper, largest_x)
             if orbit is not None:
-                branch = continue_orbit(orbit, parameter, lower, upper, largest_step=largest_step)
+                branch = continue_orbit(orbit, parameter, lower, upper, largest_step=largest_step, largest_x=largest_x)
                 branches.append(branch)
                 waiting += [b for b in branch.bifurcations if b.kind == "flip" and 2 * b.period <= max_period]
     return branches
 
 
 def _start(
-    branches: list[Branch], found: PeriodicOrbit | Bifurcation, lower: float, upper: float
+    branches: list[Branch], found: PeriodicOrbit | Bifurcation, lower: float, upper: float, largest_x: float
 ) -> PeriodicOrbit | None:
     """The orbit to continue from an orbit or a flip, or None where that leads to nothing new."""
     if isinstance(found, PeriodicOrbit):
         assert found.x_min is not None and found.x_max is not None  # it has converged
-        large = max(-found.x_min, found.x_max) > largest_x(found.oscillator)
+        large = max(-found.x_min, found.x_max) > limit_of(found.oscillator, largest_x)
         return None if large or any(_on_branch(branch, found) for branch in branches) else found
     for branch in branches:
         if branch.period == 2 * found.period and np.any(np.abs(branch.values[[0, -1]] - found.value) < 1e-6):

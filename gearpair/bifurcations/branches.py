@@ -8,18 +8,20 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_number
+from gearpair._checks import check_number, checked
 from gearpair._equality import equal_by_value
 from gearpair.bifurcations._orbit_problem import Cycle, OrbitProblem
 from gearpair.bifurcations._walk import End, Step, StepSizes, walk_both_ways
 from gearpair.bifurcations.locating import Bifurcation, bifurcations_between, merging
-from gearpair.bifurcations.orbits import PeriodicOrbit
+from gearpair.bifurcations.orbits import PeriodicOrbit, periodic_orbit
 from gearpair.motion.impacts import IMPACT_STATES, ImpactState, impact_codes
 from gearpair.motion.stability import multipliers_of
+from gearpair.motion.steady import SteadyState
 from gearpair.oscillator import Oscillator
 
 SIZES = StepSizes(first=2e-3, smallest=1e-9, largest=2e-2)
-LARGEST_X = 20.0  # where branches that run to infinity, by contact's parametric resonance, are left; see largest_x
+ROOM = 2.0  # times the start's own size, which a branch may reach at least
+LARGEST_X = 20.0  # where branches that run to infinity, by contact's parametric resonance, are left; see limit_of
 
 
 @equal_by_value
@@ -83,27 +85,32 @@ class Branch:
         )
 
 
+@checked
 def continue_orbit(
-    orbit: PeriodicOrbit,
+    orbit: PeriodicOrbit | SteadyState,
     parameter: str,
     lower: float,
     upper: float,
     *,
     largest_step: float = SIZES.largest,
+    largest_x: float = LARGEST_X,
     max_steps: int = 2000,
 ) -> Branch:
     """The branch of periodic orbits through `orbit` along one parameter, in both directions.
 
     Parameters
     ----------
-    orbit : PeriodicOrbit
-        Converged, stable or not.
+    orbit : PeriodicOrbit or SteadyState
+        Converged, stable or not; or a settled motion that is periodic.
     parameter : str
         One of ``orbit.oscillator.parameters``.
     lower, upper : float
         The range of the parameter, which the orbit's own value lies in.
     largest_step : float
         The longest step in arc length, in units of X, X' and the parameter's range.
+    largest_x : float
+        Where a branch is left that runs away, in multiples of the static position, ``1 + |F_m| / (mean stiffness)``;
+        never below twice the largest modulus of X of the orbit itself.
     max_steps : int
         Steps at most in each direction.
 
@@ -128,7 +135,12 @@ def continue_orbit(
     >>> [(b.kind, round(b.value, 5)) for b in branch.bifurcations], str(branch.ends[0])
     ([('flip', 1.6139)], 'bound')
     """
-    if not orbit.converged:
+    if isinstance(orbit, SteadyState):
+        if orbit.period is None:
+            raise ValueError(f"orbit must be periodic, got a motion of status {str(orbit.status)!r}: only cycles go on")
+        x, v = map(float, orbit.points[0])
+        orbit = periodic_orbit(orbit.oscillator, x, v, orbit.period)
+    if not orbit.converged or orbit.x_min is None or orbit.x_max is None:
         raise ValueError(f"orbit must have converged, got status {str(orbit.status)!r}: {orbit.status.remedy}")
     lower, upper = check_number("lower", lower), check_number("upper", upper)
     value = orbit.oscillator.parameter(parameter)
@@ -136,7 +148,11 @@ def continue_orbit(
         raise ValueError(
             f"lower and upper must enclose the orbit's {parameter} = {value}, got lower = {lower} and upper = {upper}"
         )
-    problem = _BranchProblem(orbit.oscillator, orbit.period, {parameter: upper - lower})
+    limit = max(
+        limit_of(orbit.oscillator, check_number("largest_x", largest_x, above=0.0)),
+        ROOM * max(-orbit.x_min, orbit.x_max),
+    )
+    problem = _BranchProblem(orbit.oscillator, orbit.period, {parameter: upper - lower}, limit)
     start, sizes = problem.unknowns(*orbit.points[0]), SIZES._replace(largest=largest_step)
     steps, ends = walk_both_ways(problem, start, [(lower, upper)], sizes, max_steps)
     found = [(b, i) for i, (a, c) in enumerate(pairwise(steps)) for b in bifurcations_between(problem, a, c)]
@@ -164,9 +180,9 @@ def continue_orbit(
     )
 
 
-def largest_x(osc: Oscillator) -> float:
-    """Where a branch is left: `LARGEST_X` times the static position, 1 + |F_m| / (mean stiffness)."""
-    return LARGEST_X * (1.0 + abs(osc.mean_force) / osc.stiffness.mean)
+def limit_of(osc: Oscillator, multiple: float) -> float:
+    """Where a branch is left: a multiple of the static position, 1 + |F_m| / (mean stiffness)."""
+    return multiple * (1.0 + abs(osc.mean_force) / osc.stiffness.mean)
 
 
 class _BranchProblem(OrbitProblem):
@@ -174,11 +190,15 @@ class _BranchProblem(OrbitProblem):
 
     describe = OrbitProblem.cycle
 
+    def __init__(self, osc: Oscillator, period: int, scales: dict[str, float], limit: float) -> None:
+        super().__init__(osc, period, scales)
+        self.limit = limit
+
     def ending(self, last: Step[Cycle], step: Step[Cycle]) -> tuple[list[Step[Cycle]], End] | None:
         """The end of a walk at `step`, if it is one."""
         merged = merging(self, last, step)
         if merged is not None:
             return [merged], End.MERGED
-        if max(-step.data.x_min, step.data.x_max) > largest_x(self.osc):
+        if max(-step.data.x_min, step.data.x_max) > self.limit:
             return [step], End.TOO_LARGE
         return None

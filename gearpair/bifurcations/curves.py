@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gearpair._checks import checked
 from gearpair._equality import equal_by_value
 from gearpair.bifurcations._orbit_problem import DIFFERENCE, Kind, OrbitProblem
 from gearpair.bifurcations._walk import End, Step, StepSizes, Vector, walk_both_ways
@@ -107,6 +108,7 @@ class _CurveProblem(OrbitProblem):
         return End.GRAZES if grazes else End.LOST
 
 
+@checked
 def continue_bifurcation(
     bifurcation: Bifurcation,
     bounds: Mapping[str, tuple[float, float]],

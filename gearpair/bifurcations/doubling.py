@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gearpair._checks import check_count
+from gearpair._checks import check_count, checked
 from gearpair._flow.cycle import map_at
 from gearpair.bifurcations._orbit_problem import OrbitProblem
 from gearpair.bifurcations._walk import correct, null_vector
@@ -11,6 +11,7 @@ from gearpair.bifurcations.locating import Bifurcation
 from gearpair.bifurcations.orbits import PeriodicOrbit, orbit_at
 
 
+@checked
 def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
     """An orbit of twice the period close to a flip: the start of the doubled branch.
 
@@ -48,6 +49,7 @@ def doubled_orbit(bifurcation: Bifurcation) -> PeriodicOrbit:
     )
 
 
+@checked
 def doubling_cascade(flip: Bifurcation, levels: int = 5) -> list[Bifurcation]:
     """The flips of a period-doubling sequence, from its first on, each of twice the period of the one before it.
 

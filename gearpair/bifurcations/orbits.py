@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_count
+from gearpair._checks import check_count, check_reach, checked
 from gearpair._cores import on_all_cores
 from gearpair._equality import equal_by_value
 from gearpair._flow.newton import newton_starts
@@ -17,7 +17,7 @@ from gearpair.motion.names import Motion, periodic
 from gearpair.motion.outcome import Outcome
 from gearpair.motion.same_orbit import lies_on
 from gearpair.motion.stability import multipliers_of
-from gearpair.motion.trajectories import check_start, check_starts
+from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
 
 STARTS_AT_ONCE = 16  # of Newton searches, between two chances to stop
@@ -110,6 +110,7 @@ class PeriodicOrbit:
         )
 
 
+@checked
 def periodic_orbit(osc: Oscillator, x: float, v: float, period: int) -> PeriodicOrbit:
     """The periodic orbit near (x, v), by Newton's method on the `period`-fold map with its exact derivative.
 
@@ -170,6 +171,7 @@ def orbit_at(osc: Oscillator, x: float, v: float, period: int) -> PeriodicOrbit:
     )
 
 
+@checked
 def find_orbits(
     osc: Oscillator,
     max_period: int,
@@ -198,7 +200,7 @@ def find_orbits(
     [1]
     """
     max_period, n_starts = check_count("max_period", max_period), check_count("n_starts", n_starts)
-    (x_low, x_high), (v_low, v_high) = check_starts(x, (0.0, 0.0))[0], check_starts(v, (0.0, 0.0))[0]
+    (x_low, x_high), (v_low, v_high) = check_reach("x", x), check_reach("v", v)
     i = np.arange(1, n_starts + 1)[:, None]
     spread = np.mod(0.5 + i * np.array([0.7548776662466927, 0.5698402909980532]), 1.0)  # Roberts (2018), R2
     starts = np.array([x_low, v_low]) + spread * np.array([x_high - x_low, v_high - v_low])

@@ -6,6 +6,7 @@ from itertools import groupby, pairwise
 
 import numpy as np
 
+from gearpair._checks import check_count, checked
 from gearpair.bifurcations.branches import Branch
 from gearpair.bifurcations.locating import Bifurcation
 from gearpair.ensembles.ranges import MotionRange, joined_ranges
@@ -16,6 +17,7 @@ from gearpair.table import Table
 SNAP = 2e-4  # relative distance within which the end of a stable range is the bifurcation found there
 
 
+@checked
 def coexistence(
     branches: list[Branch], lower: float, upper: float, *, shortest: float = 0.0
 ) -> list[tuple[float, float, tuple[Motion, ...]]]:
@@ -60,6 +62,7 @@ def coexistence(
     return [each for each in ranges if each[1] - each[0] >= shortest]
 
 
+@checked
 def stable_ranges(branches: Iterable[Branch], *, shortest: float = 0.0) -> tuple[MotionRange, ...]:
     """Where each kind of motion is stable on some branch, between the bifurcations that bound it; see `coexistence`.
 
@@ -111,6 +114,7 @@ def _edge(branch: Branch, i: int) -> float:
     return fitting[0] if branch.stable[i] else fitting[-1]
 
 
+@checked
 def bifurcation_table(branches: Iterable[Branch], *, digits: int = 5) -> Table:
     """Every bifurcation of a set of branches, by rising parameter.
 
@@ -126,6 +130,7 @@ def bifurcation_table(branches: Iterable[Branch], *, digits: int = 5) -> Table:
     ---------------------------------------------
     flip  0.76601       2  2 + 0     single-sided
     """
+    check_count("digits", digits, at_least=0)
     found = sorted((b for branch in branches for b in branch.bifurcations), key=lambda b: (b.value, b.kind))
     rows = [[b.kind, f"{b.value:.{digits}f}", b.period, _contacts(b), IMPACT_NAMES[b.impact_state]] for b in found]
     value = symbol(found[0].parameter) if found else "value"
@@ -138,6 +143,7 @@ def _contacts(bifurcation: Bifurcation) -> str:
     return first if first == second else f"{first} | {second}"
 
 
+@checked
 def coexistence_table(
     branches: Sequence[Branch], lower: float, upper: float, *, shortest: float, digits: int = 4
 ) -> Table:
@@ -153,6 +159,7 @@ def coexistence_table(
     0.7200  0.7660  period 2 (single-sided)
     0.7660  0.7800  none up to the longest period followed
     """
+    check_count("digits", digits, at_least=0)
     rows = []
     for low, high, motions in coexistence(list(branches), lower, upper, shortest=shortest):
         words = [(f"{m.kind} ({IMPACT_NAMES[m.impact_state or '']})", n) for m, n in Counter(motions).items()]
@@ -161,6 +168,7 @@ def coexistence_table(
     return Table(["from", "to", "stable orbits"], rows)
 
 
+@checked
 def cascade_table(cascades: Iterable[Sequence[Bifurcation]], *, digits: int = 6) -> Table:
     """Sequences of `doubling_cascade`, one row each: periods, flips, and the ratios of the gaps between them.
 
@@ -175,6 +183,7 @@ def cascade_table(cascades: Iterable[Sequence[Bifurcation]], *, digits: int = 6)
     >>> cascade_table([doubling_cascade(flip, 3)], digits=4).rows[0]
     ('2 4 8', '0.7660 0.7983 0.8067', '3.84')
     """
+    check_count("digits", digits, at_least=0)
     rows = []
     for flips in cascades:
         gaps = np.diff([flip.value for flip in flips])

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_array, check_count, check_number, checked
 from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import linear_response
 from gearpair.design.loads import MEASURES, measure_motion, same_motion
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 RUNS = ("up", "down", "worst")
 
 
+@checked
 def speed_chart(
     drive: GearDrive,
     speeds_rpm: ArrayLike,
@@ -116,7 +117,7 @@ def speed_chart(
 
 def check_speeds(speeds_rpm: ArrayLike) -> NDArray[np.float64]:
     """Rising speeds above 0, at least two, or a ValueError."""
-    speeds = np.asarray(speeds_rpm, dtype=float)
+    speeds = check_array("speeds_rpm", speeds_rpm)
     if speeds.ndim != 1 or len(speeds) < 2:
         raise ValueError(f"speeds_rpm must be at least two numbers, got shape {speeds.shape}")
     for i, speed in enumerate(speeds.tolist()):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_number
+from gearpair._checks import check_array, check_number, checked
 from gearpair._equality import equal_by_value
 from gearpair.drive import GearDrive
 from gearpair.teeth import iso_stiffness
@@ -45,6 +45,7 @@ class IsoDynamicFactor:
     specific_load_n_per_mm: float
 
 
+@checked
 def iso_dynamic_factor(
     drive: GearDrive,
     speeds_rpm: ArrayLike,
@@ -116,7 +117,7 @@ def iso_dynamic_factor(
     slow = float(sub[:2] @ deviations + sub[2] * relief)
     peak = float(main[:2] @ deviations + main[2] * relief) + 1.0
     fast = float(above @ deviations) + rest
-    speeds = np.asarray(speeds_rpm, dtype=float)
+    speeds = check_array("speeds_rpm", speeds_rpm, at_least=0.0)
     ratio = speeds / resonance
     between = fast + (peak - fast) / (SUPERCRITICAL - MAIN_RESONANCE) * (SUPERCRITICAL - ratio)
     factor = np.select(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_number
+from gearpair._checks import check_number, checked
 from gearpair._equality import equal_by_value
 from gearpair.design.charts import carried_runs, check_speeds
 from gearpair.drive import GearDrive
@@ -46,6 +46,7 @@ class IdleRattle:
     time_apart: NDArray[np.float64]
 
 
+@checked
 def idle_oscillator(
     drive: GearDrive, speed_rpm: float, *, order: float, pinion_swing_deg: float, drag_torque_nm: float
 ) -> Oscillator:
@@ -109,6 +110,7 @@ def _mass_and_rate(drive: GearDrive) -> tuple[float, float]:
     return mass, float(np.sqrt(drive.mean_stiffness_n_per_um * 1e6 / mass))
 
 
+@checked
 def idle_rattle(
     drive: GearDrive, speeds_rpm: ArrayLike, *, order: float, pinion_swing_deg: float, drag_torque_nm: float
 ) -> IdleRattle:
@@ -145,7 +147,7 @@ def idle_rattle(
     mass, rate = _mass_and_rate(drive)
     columns = np.full((4, len(speeds)), np.nan)
     for i, state in enumerate(carried_runs([oscillators], None)[0][0]):
-        if state.status in (Status.ESCAPED, Status.CAPPED, Status.NOT_RUN):
+        if state.status in (Status.ESCAPED, Status.CAPPED):
             continue
         found = impact_measures(state, n_periods=200)
         per_second = state.oscillator.mesh_frequency * rate / (2.0 * np.pi)

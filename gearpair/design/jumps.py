@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from gearpair._checks import checked
 from gearpair.bifurcations import continue_orbit, periodic_orbit
 from gearpair.motion.steady import SteadyState
 
@@ -38,6 +39,7 @@ class Jump:
     after: str
 
 
+@checked
 def find_jumps(up: list[SteadyState], down: list[SteadyState]) -> list[Jump]:
     """The jumps of a run up and of one down over the same speeds.
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gearpair._checks import checked
 from gearpair.oscillator import Oscillator
 
 N_SAMPLES = 4096  # over the mesh period; half as many harmonics
@@ -35,6 +36,7 @@ class LinearResponse:
         return self.smallest_force > 0.0
 
 
+@checked
 def linear_response(osc: Oscillator) -> LinearResponse:
     """The forced vibration about the static deflection, teeth always in contact and mean stiffness.
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from gearpair._checks import checked
 from gearpair.drive import GearDrive
 from gearpair.motion.measures import impact_measures
 from gearpair.motion.same_orbit import lies_on
@@ -17,6 +18,7 @@ SAMPLES_PER_PERIOD = 256
 CHAOTIC_PERIODS = 200  # mesh periods over which a motion that is not periodic is measured
 
 
+@checked
 def measure_motion(drive: GearDrive, state: SteadyState) -> dict[str, float]:
     """The measures of a settled motion of `drive` by their names in `MEASURES`; nan for one that did not stay bounded.
 
@@ -43,7 +45,7 @@ def measure_motion(drive: GearDrive, state: SteadyState) -> dict[str, float]:
     >>> round(loads["mesh_force"]), round(loads["dynamic_factor"], 2), round(loads["impact_rate"])
     (9655, 3.85, 4533)
     """
-    if state.status in (Status.ESCAPED, Status.CAPPED, Status.NOT_RUN):
+    if state.status in (Status.ESCAPED, Status.CAPPED):
         return dict.fromkeys(MEASURES, np.nan)
     osc, unit_um = state.oscillator, drive.half_backlash_m * 1e6
     n_periods = state.period or CHAOTIC_PERIODS

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearpair._checks import check_number
+from gearpair._checks import check_number, checked
 from gearpair.design.charts import carried_runs, check_speeds, oscillators_at
 from gearpair.design.loads import measure_motion
 from gearpair.drive import GearDrive
@@ -31,6 +31,7 @@ OUTCOMES = {
 }
 
 
+@checked
 def sensitivity(
     drive: GearDrive,
     speeds_rpm: ArrayLike,

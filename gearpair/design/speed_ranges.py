@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gearpair._checks import checked
 from gearpair.motion.impacts import ImpactState
 from gearpair.table import Table
 
@@ -51,6 +52,7 @@ class SpeedRange:
     impact_velocity: float
 
 
+@checked
 def speeds_to_avoid(chart: xr.Dataset) -> tuple[SpeedRange, ...]:
     """The ranges of a speed chart in which the teeth part.
 
@@ -119,6 +121,7 @@ def _edge(chart: xr.Dataset, speeds: NDArray[np.float64], i: int) -> float:
     return float(near[0]) if len(near) else float(0.5 * (speeds[i - 1] + speeds[i]))
 
 
+@checked
 def speed_range_table(ranges: Iterable[SpeedRange]) -> Table:
     """The speeds to avoid, one row a range: why, and the worst of it.
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_number
+from gearpair._checks import check_array
 from gearpair._flow.states import PERIODIC, Settled
 from gearpair.motion.impacts import IMPACT_STATES, impact_codes
 from gearpair.motion.settling import STATUSES, Status
@@ -32,12 +32,17 @@ def oscillators_along(
     osc: Oscillator, parameter: str, values: ArrayLike
 ) -> tuple[list[Oscillator], NDArray[np.float64]]:
     """One oscillator per value, or a ValueError that names what is wrong."""
-    array = np.asarray(values)
-    if array.ndim != 1 or array.size == 0:
-        raise ValueError(f"values of {parameter} must be a non-empty sequence of numbers, got shape {array.shape}")
+    array = check_array(f"values of {parameter}", values, ndim=1)
     osc.parameter(parameter)
-    checked = [check_number(parameter, value) for value in array.tolist()]
-    return [osc.replace(**{parameter: value}) for value in checked], np.array(checked)
+    return [osc.replace(**{parameter: value}) for value in array.tolist()], array
+
+
+def check_origin(osc: Oscillator, result: xr.Dataset) -> None:
+    """Raise a ValueError unless a result is of `osc`, whatever the values of the parameters that it is over."""
+    own = Oscillator.from_attrs(result)
+    over = {name: osc.parameter(name) for name in osc.parameters if name in result.dims and name in own.parameters}
+    if own.replace(**over) != osc:
+        raise ValueError(f"result must be one of this oscillator, {osc!r}, got one of another, {own!r}")
 
 
 def axis_attributes(name: str) -> dict[str, str]:

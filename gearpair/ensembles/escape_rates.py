@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_array, check_count, check_number, checked
+from gearpair._equality import equal_by_value
 from gearpair.motion.outcome import Outcome
 
 
@@ -22,6 +23,7 @@ class Persistence(Outcome):
     UNWATCHED = "unwatched", "no motion was watched, by an n_watch of 0 or without damping: how long it lasts is open"
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class EscapeRate:
     """The escape rate of a set of motions with its confidence interval, and the time it rests on.
@@ -90,6 +92,7 @@ class EscapeRate:
         )
 
 
+@checked
 def escape_rate(times: ArrayLike, watched: ArrayLike, *, discard: int = 0, confidence: float = 0.95) -> EscapeRate:
     """The constant rate at which motions leave, where some have and the others were still there when the watch ended.
 
@@ -136,11 +139,12 @@ def counted_rate(n_watched: int, n: int, k: int, confidence: float = 0.95) -> Es
 
 def _checked(times: ArrayLike, watched: ArrayLike) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
     """Which motions left, and when each did or the watch ended; or a ValueError."""
-    at = np.asarray(times, dtype=float)
+    at = check_array("times", times, finite=False)
     if at.ndim != 1 or at.size == 0:
         raise ValueError(f"times must be a non-empty sequence of numbers, got shape {at.shape}")
+    checked_most = check_array("watched", watched, finite=False)
     try:
-        most = np.broadcast_to(np.asarray(watched, dtype=float), at.shape)
+        most = np.broadcast_to(checked_most, at.shape)
     except ValueError:
         raise ValueError(
             f"watched must be one number, or one for each of the {at.size} times, got shape {np.shape(watched)}"

@@ -9,18 +9,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from tqdm import tqdm
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_count, check_number, checked
 from gearpair._cores import on_all_cores
 from gearpair._flow.capture import COLUMNS, OWNER
 from gearpair._flow.settle import CAPTURED
-from gearpair._flow.states import GONE, NOT_RUN, PERIODIC, Known, Settled
+from gearpair._flow.states import GONE, PERIODIC, Known, Settled
 from gearpair._flow.walk import ESCAPED, OK
 from gearpair._flow.watch import Watched, watch_starts
 from gearpair.ensembles.capture import known_among, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of, with_numbers
 from gearpair.ensembles.escape_rates import EscapeRate, Persistence, escape_rate
 from gearpair.ensembles.planes import RATES, attractor_variables
-from gearpair.motion.settling import MANY, SettleSettings, nothing_known, settle_batch, transient_periods
+from gearpair.motion.settling import MANY, nothing_known, settle_batch, transient_periods
 from gearpair.motion.trajectories import check_starts, raise_if_capped
 from gearpair.oscillator import Oscillator
 from gearpair.quantities import attributes
@@ -35,6 +35,7 @@ FIRST_LOOK, NEXT_LOOK = 2_000, 4
 ON_ITS_WAY, UNBOUNDED = -1, -2  # what stands for an attractor's number
 
 
+@checked
 def survival(
     osc: Oscillator,
     x: ArrayLike,
@@ -126,6 +127,7 @@ def survival(
     return with_numbers(dataset(osc, variables, {}, n_periods=n_periods, discard=discard, confidence=confidence))
 
 
+@checked
 def survival_along(
     osc: Oscillator,
     parameter: str,
@@ -177,7 +179,7 @@ def watched_starts(
     """
     settings = replace(MANY, n_watch=0).whole_cycles()  # the watch is this function's own
     known = nothing_known(settings)
-    known = _joined(osc, known, _settled(osc, starts[scouts(len(starts))], settings, known))
+    known = _joined(osc, known, settle_batch([osc], starts[scouts(len(starts))], settings, known=known))
     n = len(starts)
     watched = Watched(np.full(n, OK), np.full(n, -1), np.zeros(n, np.int64), starts.copy())
     done, until = 0, min(FIRST_LOOK, n_periods)
@@ -185,7 +187,7 @@ def watched_starts(
         _watch(osc, watched, until - done, _neighbourhoods(known), progress)
         left = np.flatnonzero((watched.owner < 0) & (watched.status == OK))
         looked = left if until == n_periods else left[scouts(len(left))]
-        later = _settled(osc, watched.points[looked], settings, known)
+        later = settle_batch([osc], watched.points[looked], settings, known=known)
         more = _joined(osc, known, later)
         if len(more.settled.status) > len(known.settled.status):
             known, done = more, 0
@@ -194,14 +196,6 @@ def watched_starts(
             return known, watched, later
         else:
             done, until = until, min(NEXT_LOOK * until, n_periods)
-
-
-def _settled(osc: Oscillator, starts: NDArray[np.float64], settings: SettleSettings, known: Known) -> Settled:
-    """`settle_batch`, which Ctrl-C ends."""
-    out = settle_batch([osc], starts, settings, known=known)
-    if np.any(out.status == NOT_RUN):
-        raise KeyboardInterrupt
-    return out
 
 
 def _joined(osc: Oscillator, known: Known, out: Settled) -> Known:
@@ -228,7 +222,7 @@ def _watch(
     with tqdm(desc=text, total=n * len(spans), unit="span", disable=not progress) as bar:
         for span in spans:
             arguments = (osc.cells, neighbourhoods, span, watched)
-            on_all_cores(watch_starts, arguments, n, max(1, AT_ONCE // span), bar.update)
+            on_all_cores(watch_starts, arguments, n, max(1, AT_ONCE // span), bar.update, longest=span)
 
 
 def _survivor_variables(times: NDArray[np.float64], discard: int, n_periods: int) -> dict[str, Any]:

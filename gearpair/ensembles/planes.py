@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gearpair._checks import checked
 from gearpair._flow.states import Known
 from gearpair.ensembles.capture import (
     Found,
@@ -24,7 +25,15 @@ from gearpair.ensembles.capture import (
     with_sets,
 )
 from gearpair.ensembles.chaos import chaotic_sets, observed_in, scouted
-from gearpair.ensembles.datasets import OF_PLANES, dataset, settled_columns, variables_of, way_columns, with_numbers
+from gearpair.ensembles.datasets import (
+    OF_PLANES,
+    check_origin,
+    dataset,
+    settled_columns,
+    variables_of,
+    way_columns,
+    with_numbers,
+)
 from gearpair.ensembles.escape_rates import EscapeRate, Persistence
 from gearpair.ensembles.stores import add_column, add_table, by_store, column_of, read_blocks, stored
 from gearpair.motion.impacts import ImpactState
@@ -46,6 +55,7 @@ RATES = (
 )  # fmt: skip
 
 
+@checked
 def basins(
     osc: Oscillator,
     x: ArrayLike,
@@ -232,6 +242,7 @@ def attractor_variables(
     return variables_of(columns, ("attractor_number",), share.shape, coded=coded)
 
 
+@checked
 def attractor_motions(result: xr.Dataset, least_share: float = 0.0) -> list[Motion]:
     """What each attractor of a `gearpair.basins` is: its motion and, where periodic, its impact state.
 
@@ -251,6 +262,7 @@ def attractor_motions(result: xr.Dataset, least_share: float = 0.0) -> list[Moti
     ]
 
 
+@checked
 def attractor_states(osc: Oscillator, result: xr.Dataset, least_share: float = 0.0) -> list[SteadyState]:
     """The periodic attractors of the `gearpair.basins` of `osc`, each described in full.
 
@@ -261,6 +273,7 @@ def attractor_states(osc: Oscillator, result: xr.Dataset, least_share: float = 0
     >>> [state.period for state in attractor_states(Oscillator(), basins(Oscillator(), [-2.0, 1.0], [0.0]))]
     [1, 2]
     """
+    check_origin(osc, result)
     columns = (result[f"attractor_{name}"].values.tolist() for name in ("x", "v", "share"))
     rows = zip(*columns, strict=True)
     return [steady_state(osc, x, v) for x, v, share in rows if np.isfinite(x) and share >= least_share]

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearpair._checks import check_number
-from gearpair.ensembles.datasets import oscillators_along
+from gearpair._checks import check_count, check_number, checked
+from gearpair.ensembles.datasets import check_origin, oscillators_along
 from gearpair.ensembles.sweeps import sweep
 from gearpair.motion.names import CHAOS, IMPACT_NAMES, Motion, motions_of, periodic
 from gearpair.motion.steady import SteadyState, steady_state
@@ -40,6 +40,7 @@ class MotionRange:
         return self.upper - self.lower
 
 
+@checked
 def motion_ranges(result: xr.Dataset) -> tuple[MotionRange, ...]:
     """The runs of one motion in a `gearpair.sweep`, by rising parameter, whatever its direction was.
 
@@ -57,6 +58,7 @@ def motion_ranges(result: xr.Dataset) -> tuple[MotionRange, ...]:
     return tuple(MotionRange(run[0], run[-1], motion) for motion, run in runs)
 
 
+@checked
 def joined_ranges(ranges: Iterable[MotionRange]) -> tuple[MotionRange, ...]:
     """Ranges, in any order, with those of one motion that overlap or touch made one; by rising lower end.
 
@@ -78,6 +80,7 @@ def joined_ranges(ranges: Iterable[MotionRange]) -> tuple[MotionRange, ...]:
     return tuple(sorted((run for runs in found.values() for run in runs), key=lambda run: (run.lower, run.motion)))
 
 
+@checked
 def found_ranges(*sweeps: xr.Dataset, narrowest: float = 0.0) -> tuple[MotionRange, ...]:
     """Where each periodic motion was found by any of several sweeps over one parameter, as `joined_ranges`.
 
@@ -108,6 +111,7 @@ def swept_parameter(result: xr.Dataset) -> str:
     return names[0]
 
 
+@checked
 def representatives(
     osc: Oscillator,
     *sweeps: xr.Dataset,
@@ -127,6 +131,8 @@ def representatives(
     >>> {str(motion): state.oscillator.mesh_frequency for motion, state in shown.items()}
     {'period 2': 0.7, 'period 4': 0.78}
     """
+    for result in sweeps:
+        check_origin(osc, result)
     found = {}
     for motion in (*map(periodic, range(1, 5)), CHAOS) if motions is None else motions:
         for result in sweeps:
@@ -153,6 +159,7 @@ def _settled_again(osc: Oscillator, result: xr.Dataset, i: int, motion: Motion) 
     return state if state.motion.kind == motion else None
 
 
+@checked
 def carried_sweeps(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> tuple[xr.Dataset, ...]:
     """Carried sweeps from one settled motion towards both ends of the values, to see how far it lives.
 
@@ -185,6 +192,7 @@ def carried_sweeps(state: SteadyState, parameter: str, values: ArrayLike, **sett
     return tuple(sweep(state.oscillator, parameter, way, x=x, v=v, **settings) for way in ways if len(way))
 
 
+@checked
 def range_of(state: SteadyState, parameter: str, values: ArrayLike, **settings: Any) -> MotionRange:
     """How far one settled motion lives: the part of `carried_sweeps` in which it keeps its period and its size.
 
@@ -209,6 +217,7 @@ def range_of(state: SteadyState, parameter: str, values: ArrayLike, **settings: 
     return MotionRange(ends[0], ends[1], motion)
 
 
+@checked
 def motion_table(states: Mapping[Any, SteadyState], parameter: str, digits: int = 3) -> Table:
     """Settled motions by name: the value of a parameter, extremes, impact state, modulus of the larger multiplier.
 
@@ -222,6 +231,7 @@ def motion_table(states: Mapping[Any, SteadyState], parameter: str, digits: int 
     -------------------------------------------------------------------
     the baseline  0.020  0.118  1.492  single-sided               0.698
     """
+    check_count("digits", digits, at_least=0)
     rows = []
     for name, state in states.items():
         cells = [f"{state.x_min:.{digits}f}", f"{state.x_max:.{digits}f}", IMPACT_NAMES[state.impact_state or ""]]

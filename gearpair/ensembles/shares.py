@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count
+from gearpair._checks import check_count, check_reach, checked
 from gearpair.ensembles.capture import known_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, with_numbers
 from gearpair.ensembles.planes import attractor_variables, basins
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+@checked
 def basin_stability(
     osc: Oscillator,
     n: int = 1000,
@@ -70,12 +71,12 @@ def basin_stability(
 
 def random_starts(n: int, x_reach: tuple[float, float], v_reach: tuple[float, float], seed: int) -> NDArray[np.float64]:
     """Starts (n, 2) drawn evenly from a rectangle, or a ValueError that says what is wrong with it."""
-    for name, reach in (("x_reach", x_reach), ("v_reach", v_reach)):
-        if not -np.inf < reach[0] < reach[1] < np.inf:
-            raise ValueError(f"{name} must be two finite numbers in rising order, got {reach}")
-    return np.random.default_rng(seed).uniform((x_reach[0], v_reach[0]), (x_reach[1], v_reach[1]), (n, 2))
+    (x_low, x_high), (v_low, v_high) = check_reach("x_reach", x_reach), check_reach("v_reach", v_reach)
+    generator = np.random.default_rng(check_count("seed", seed, at_least=0))
+    return generator.uniform((x_low, v_low), (x_high, v_high), (n, 2))
 
 
+@checked
 def motion_shares(
     osc: Oscillator,
     parameter: str,

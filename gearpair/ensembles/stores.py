@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
+from gearpair._checks import checked
 from gearpair._locks import held
 from gearpair.ensembles.datasets import axis_attributes, variables_of, with_numbers
 
@@ -199,6 +200,7 @@ def opened_dataset(path: str | Path) -> xr.Dataset:
     return with_numbers(result)
 
 
+@checked
 def decoded(result: xr.Dataset) -> xr.Dataset:
     """A stored result in memory, with words for its codes: what the same call gives without a store.
 

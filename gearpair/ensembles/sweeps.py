@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_choice
+from gearpair._checks import check_array, check_choice, checked
 from gearpair._flow.states import APERIODIC, GONE, PERIODIC, UNSETTLED, Settled
 from gearpair.ensembles.capture import numbered
 from gearpair.ensembles.datasets import (
@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from distributed import Client
 
 
+@checked
 def sweep(
     osc: Oscillator,
     parameter: str,
@@ -100,6 +101,7 @@ def sweep(
     return dataset(osc, variables, {parameter: checked}, seeding=seeding)
 
 
+@checked
 def parameter_map(
     osc: Oscillator,
     axes: Mapping[str, ArrayLike],
@@ -164,8 +166,8 @@ def parameter_map(
     if carried is not None:
         check_choice("carried", carried, tuple(checked))
     settings = MANY.having(settling, BatchOptions, measures=measures)
-    others = np.empty((0, 2)) if starts is None else np.array(starts, dtype=float)
-    if others.ndim != 2 or others.shape[1] != 2 or not np.all(np.isfinite(others)):
+    others = np.empty((0, 2)) if starts is None else check_array("starts", starts)
+    if others.ndim != 2 or others.shape[1] != 2:
         raise ValueError(f"starts must be pairs of finite numbers, got shape {others.shape}")
     grid = Grid(osc, checked, check_start(x, v), settings, others, carried)
     if not by_store(store, client):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_count, check_number, checked
 from gearpair._flow.states import TRANSIENT
 from gearpair.ensembles.capture import known_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
@@ -26,6 +26,7 @@ ARRIVED = 1e-3  # how near, in sizes, to the motion found there
 ESCAPES, LINGERS = -2, -3  # what an attractor that has ended tips to where that is no attractor
 
 
+@checked
 def continue_attractors(
     osc: Oscillator,
     parameter: str,

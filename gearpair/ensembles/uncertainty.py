@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count
+from gearpair._checks import check_array, check_count, checked
 from gearpair._equality import equal_by_value
 from gearpair.motion.settling import Status
 
@@ -43,6 +43,7 @@ class BasinEntropy:
     left_out: float = 0.0
 
 
+@checked
 def basin_entropy(plane: xr.Dataset | ArrayLike, box: int = 5) -> BasinEntropy:
     """Basin entropy and boundary basin entropy of a plane of starts.
 
@@ -113,6 +114,7 @@ class UncertaintyExponent:
     left_out: float = 0.0
 
 
+@checked
 def uncertainty_exponent(plane: xr.Dataset | ArrayLike, *, longest: int | None = None) -> UncertaintyExponent:
     """The uncertainty exponent of the boundaries in a plane of starts.
 
@@ -167,7 +169,10 @@ def _labels(plane: Any) -> NDArray[np.int64]:
         labels = np.where(status == Status.ESCAPED, numbers.max(initial=-1) + 1, numbers)
         labels[status == Status.UNSETTLED] = -1
     else:
-        labels = np.asarray(plane)
+        labels = check_array("plane", plane)
+        if np.any(labels != np.round(labels)):
+            raise ValueError("plane must hold whole numbers, the colours of its starts")
+        labels = labels.astype(np.int64)
     if labels.ndim != 2 or labels.size == 0:
         raise ValueError(f"plane must be a plane of attractor numbers, got shape {labels.shape}")
     if np.all(labels < 0):

@@ -9,12 +9,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count
+from gearpair._checks import check_count, checked
+from gearpair._cores import aside
+from gearpair._equality import equal_by_value
 from gearpair._flow.closed_form import DEGREE, REACH, TERMS, evaluate_jerk
 from gearpair._flow.event_search import MAX_STEPS, MONOTONE, ROUNDING, certified_step
 from gearpair._flow.records import SEGMENT_COLUMNS, Segments
 from gearpair._flow.walk import EVENT_UNDECIDED, Details, walk
-from gearpair.motion.trajectories import check_start, raise_unless_ok
+from gearpair.motion.trajectories import WATCHED, check_start, raise_unless_ok
 from gearpair.oscillator import Oscillator
 from gearpair.table import Table
 
@@ -35,6 +37,7 @@ class CertifiedStep:
     length: float
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class Segment:
     """A piece of the motion inside one cell and one region, as a power series in t (unit: the cell's width).
@@ -160,6 +163,7 @@ class Segment:
         return step, bound
 
 
+@checked
 def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Segment]:
     """Every segment of the motion from (x, v) over `n_periods` mesh periods, in the order of time.
 
@@ -184,7 +188,8 @@ def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Se
     for _ in range(2):  # once to count the segments, once to list them
         counts = np.zeros(1, np.int64)
         details = Details(segments=Segments(rows, counts))
-        status, _x, _v = walk(osc.cells, x, v, n_periods, np.empty(TERMS), None, None, details)
+        arguments = (osc.cells, x, v, n_periods, np.empty(TERMS), None, None, details)
+        status, _x, _v = aside(walk, *arguments, periods=n_periods * WATCHED)
         raise_unless_ok(status, n_periods)
         rows = np.empty((int(counts[0]), SEGMENT_COLUMNS)) if len(rows) == 0 else rows
     return [
@@ -193,6 +198,7 @@ def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Se
     ]
 
 
+@checked
 def certificate_examples(pieces: Iterable[Segment]) -> dict[str, Segment | None]:
     """The segments that show the three certificates best; None where there is no such segment.
 
@@ -235,6 +241,7 @@ def _closest(piece: Segment) -> float:
     return float(distance.min()) if 0 < distance.argmin() < 64 else np.inf
 
 
+@checked
 def certificate_table(pieces: Iterable[Segment]) -> Table:
     """How many segments each certificate settles, and how many of these hold a crossing.
 
@@ -252,6 +259,7 @@ def certificate_table(pieces: Iterable[Segment]) -> Table:
     return Table(["certificate", "segments", "with a crossing"], rows)
 
 
+@checked
 def series_table(osc: Oscillator) -> Table:
     """The constants of the power series and the cells that `osc` needs.
 

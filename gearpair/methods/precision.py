@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count
+from gearpair._checks import check_count, checked, shown
+from gearpair._equality import equal_by_value
 from gearpair.ensembles.datasets import oscillators_along
 from gearpair.methods.runge_kutta import DiagramOptions, diagram_rules, runge_kutta_section, section_diagram
 from gearpair.methods.solvers import integrated_trajectory
@@ -31,6 +32,7 @@ TIMED_PERIODS = 1000  # of one compiled run
 CUT = 0.38  # where `split_levels` divides each level
 
 
+@equal_by_value
 @dataclass(frozen=True)
 class Precision:
     """What one `method` did at one tolerance `rtol`, nan for the exact flow, which has none.
@@ -49,6 +51,7 @@ class Precision:
     seconds: float
 
 
+@checked
 def split_levels(osc: Oscillator) -> Oscillator:
     """The same oscillator with each stiffness level written as two: the exact flow then works on other cells.
 
@@ -65,6 +68,7 @@ def split_levels(osc: Oscillator) -> Oscillator:
     return osc.replace(stiffness=StiffnessWave(tuple(edges.tolist()), tuple(np.repeat(wave.levels, 2).tolist())))
 
 
+@checked
 def impact_time_error(impacts: Impacts, reference: Impacts) -> float:
     """The largest time between an impact of `reference` and the nearest of `impacts` on the same side.
 
@@ -84,6 +88,7 @@ def impact_time_error(impacts: Impacts, reference: Impacts) -> float:
     return worst
 
 
+@checked
 def work_precision(
     osc: Oscillator,
     x: float,
@@ -149,6 +154,7 @@ def _per_period(run: Callable[[], object]) -> float:
     return min(repeat(run, repeat=4, number=1)[1:]) / TIMED_PERIODS
 
 
+@checked
 def plain_sweep(
     osc: Oscillator,
     parameter: str,
@@ -183,6 +189,7 @@ def plain_sweep(
     return section_diagram(osc, {parameter: checked}, points, closeness, seeding="carry")
 
 
+@checked
 def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:
     """At which values a diagram shows disorder though the motion is periodic in the end.
 
@@ -206,6 +213,7 @@ def numerical_chaos(exact: xr.Dataset, drawn: xr.Dataset) -> NDArray[np.bool_]:
     return (exact.status.values == "periodic") & (drawn.period.values == 0)
 
 
+@checked
 def disorder_table(exact: xr.Dataset, drawn: Mapping[str, xr.Dataset]) -> Table:
     """How often diagrams, by name, show disorder where the motion is periodic in the end, and a period where it is not.
 
@@ -229,6 +237,7 @@ def disorder_table(exact: xr.Dataset, drawn: Mapping[str, xr.Dataset]) -> Table:
     return Table(["drawn by", "disordered though periodic", "periodic though not"], rows)
 
 
+@checked
 def coarse_share(where: ArrayLike) -> str:
     """The share of true values, so coarse that rounding on another machine hardly changes it.
 
@@ -239,7 +248,11 @@ def coarse_share(where: ArrayLike) -> str:
     >>> coarse_share([True, False, False]), coarse_share([True] * 29 + [False]), coarse_share([False])
     ('35%', 'over 90%', 'under 10%')
     """
-    share = float(np.mean(np.asarray(where, dtype=bool)))
+    truths = np.array(where, dtype=object) if isinstance(where, list) else np.asarray(where)
+    truths = truths.astype(bool) if all(isinstance(each, (bool, np.bool_)) for each in truths.flat) else truths
+    if truths.size == 0 or truths.dtype != bool:
+        raise ValueError(f"where must hold truth values, one at least, got {shown(where)}")
+    share = float(np.mean(truths))
     if share == 1.0:
         return "all"
     return "under 10%" if share < 0.1 else "over 90%" if share > 0.9 else f"{round(20.0 * share) / 20.0:.0%}"

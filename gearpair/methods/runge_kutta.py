@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_choice, check_count, check_number, check_options
+from gearpair._checks import check_array, check_choice, check_count, check_number, check_options, checked
 from gearpair._cores import on_all_cores
 from gearpair._flow.runge_kutta import COMPLETE, Steps, integrate_lanes
 from gearpair.ensembles.datasets import dataset, oscillators_along, section_variables
@@ -22,8 +22,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MAX_STEPS_PER_PERIOD = 100_000
+PERIODS_OF_EXACT_FLOW = 100  # that take as long as a mesh period by Runge and Kutta, or so
 
 
+@checked
 def runge_kutta_section(
     osc: Oscillator,
     x: float,
@@ -119,6 +121,7 @@ def section_diagram(
     return dataset(osc, variables, along, **facts)
 
 
+@checked
 def runge_kutta_sweep(
     osc: Oscillator,
     parameter: str,
@@ -165,6 +168,7 @@ def runge_kutta_sweep(
     return drawn.assign(calls=(parameter, calls, attributes("calls")))
 
 
+@checked
 def section_period(points: ArrayLike, closeness: float = 0.01) -> int:
     """The period that a reader sees in successive section points (n, 2): the smallest that all of them repeat with.
 
@@ -175,7 +179,9 @@ def section_period(points: ArrayLike, closeness: float = 0.01) -> int:
     >>> section_period([[1.0, 0.0], [2.0, 0.0], [1.001, 0.0], [2.0, 0.0]])
     2
     """
-    section = np.asarray(points, dtype=float)
+    section, closeness = check_array("points", points, finite=False), check_number("closeness", closeness, above=0.0)
+    if section.ndim != 2:
+        raise ValueError(f"points must be section points of shape (n, 2), got shape {section.shape}")
     for period in range(1, len(section) // 2 + 1):
         if np.all(np.abs(section[period:] - section[:-period]) <= closeness):
             return period
@@ -262,5 +268,8 @@ class Integrator:
             steps = Steps(float(self.rtol), float(atol), self.steps or 0, MAX_STEPS_PER_PERIOD * n_periods)
         lanes = lanes_of(oscillators, np.broadcast_to(check_start(x, v), (n, 2)), ONE)
         points, counts = np.empty((n, n_kept, 2)), np.zeros((n, 2), np.int64)
-        on_all_cores(integrate_lanes, (lanes, chain, n_periods, steps, points, counts), n, chain)
+        # One chain alone is carried along value by value, so that Ctrl-C may come in between.
+        block, longest = 1 if chain == n else chain, n_periods * PERIODS_OF_EXACT_FLOW
+        arguments = (lanes, chain, n_periods, steps, points, counts)
+        on_all_cores(integrate_lanes, arguments, n, block, cores=chain < n, longest=longest)
         return points, counts[:, 0], counts[:, 1]

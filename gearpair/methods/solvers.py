@@ -3,13 +3,14 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_choice, check_count, check_number
+from gearpair._checks import check_choice, check_count, check_number, checked
 from gearpair.motion.trajectories import Impacts, Trajectory, check_start
 from gearpair.oscillator import Oscillator
 
 METHODS = ("RK23", "RK45", "DOP853", "Radau", "BDF", "LSODA")
 
 
+@checked
 def integrated_trajectory(
     osc: Oscillator,
     x: float,

@@ -5,7 +5,7 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_number
+from gearpair._checks import check_number, checked
 
 
 class ImpactState(StrEnum):
@@ -22,6 +22,7 @@ class ImpactState(StrEnum):
 IMPACT_STATES = tuple(ImpactState)  # in the order of the codes
 
 
+@checked
 def impact_state(x_min: float, x_max: float) -> ImpactState:
     """The impact state from the extremes of X over a cycle, ``x_min <= x_max``.
 

@@ -5,15 +5,19 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_count
+from gearpair._checks import check_count, checked
+from gearpair._cores import aside
+from gearpair._equality import equal_by_value
 from gearpair._flow import measures as at
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.observe import measure
 from gearpair._flow.walk import OK
 from gearpair.motion.settling import Status
 from gearpair.motion.steady import SteadyState
+from gearpair.motion.trajectories import WATCHED
 
 
+@equal_by_value
 @dataclass(frozen=True, kw_only=True)
 class ImpactMeasures:
     """What the teeth of a steady motion bear; all dimensionless.
@@ -62,6 +66,7 @@ class ImpactMeasures:
 MEASURES = tuple(field.name for field in fields(ImpactMeasures))
 
 
+@checked
 def impact_measures(state: SteadyState, *, n_periods: int = 2000) -> ImpactMeasures:
     """Blows, forces and displacements of a steady motion that stayed bounded.
 
@@ -84,12 +89,12 @@ def impact_measures(state: SteadyState, *, n_periods: int = 2000) -> ImpactMeasu
     >>> measures.drive_impacts, measures.coast_impacts
     (1.0, 0.0)
     """
-    if state.status in (Status.ESCAPED, Status.CAPPED, Status.NOT_RUN):
+    if state.status in (Status.ESCAPED, Status.CAPPED):
         raise ValueError(f"only a motion that stays bounded has impact measures, got one with status {state.status!r}")
     row = np.empty(at.N_MEASURES)
     x, v = map(float, state.points[0])
     span = state.period or check_count("n_periods", n_periods)
-    status = measure(state.oscillator.cells, x, v, span, np.empty(TERMS), row)
+    status = aside(measure, state.oscillator.cells, x, v, span, np.empty(TERMS), row, periods=span * WATCHED)
     assert status == OK, "the same motion stayed bounded while it settled"
     columns = measure_columns(row[np.newaxis], np.array([state.oscillator.mean_force]))
     return ImpactMeasures(**{name: float(column[0]) for name, column in columns.items()})

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gearpair._checks import check_count, checked
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.settling import Status
 
@@ -57,6 +58,10 @@ class Motion:
     period: int | None = None
     impact_state: ImpactState | None = None
 
+    def __post_init__(self) -> None:
+        if self.period is not None:
+            check_count("period", self.period)
+
     def __str__(self) -> str:
         if self.status == Status.PERIODIC:
             word = f"period {self.period}"
@@ -81,6 +86,7 @@ class Motion:
 CHAOS = Motion(Status.APERIODIC)
 
 
+@checked
 def periodic(period: int, impact_state: ImpactState | None = None) -> Motion:
     """The motion of a period.
 
@@ -92,6 +98,7 @@ def periodic(period: int, impact_state: ImpactState | None = None) -> Motion:
     return Motion(Status.PERIODIC, period, impact_state)
 
 
+@checked
 def motions_of(result: xr.Dataset) -> NDArray[np.object_]:
     """The kind of every motion of a sweep, a map or a plane of starts, in the shape of its ``status``.
 

@@ -1,9 +1,7 @@
 """Batches of motions followed until they settle: many oscillators, many starts, block by block."""
 
 import math
-import warnings
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypedDict
 
@@ -11,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
-from gearpair._checks import check_count, check_options
+from gearpair._checks import check_count, check_options, checked
 from gearpair._cores import on_all_cores
 from gearpair._flow.capture import COLUMNS
 from gearpair._flow.measures import N_MEASURES
@@ -21,7 +19,7 @@ from gearpair.motion.outcome import Outcome
 from gearpair.oscillator import Oscillator
 
 UNLIMITED = 2**62
-# Motions between two moves of the progress bar, and between two chances to stop: of several oscillators, of one.
+# Motions between two moves of the progress bar: of several oscillators, of one.
 BLOCK, BLOCK_OF_ONE = 8, 256
 
 
@@ -44,7 +42,6 @@ class Status(Outcome):
         "the motion grows without bound: start nearer to the backlash zone, or raise damping_ratio",
     )
     CAPPED = "capped", "too many events in one mesh period: the oscillator is outside what a gear can do"
-    NOT_RUN = "not_run", "the run was stopped before this value: run it again"
     EXHAUSTED = (
         "exhausted",
         "the limit on work came before the motion was judged: raise most_work, or lower n_transient or n_watch",
@@ -159,6 +156,7 @@ CHART = SettleSettings(max_period=16, n_exponent=300, n_samples=16)
 PERIODS = SettleSettings(n_exponent=20, n_watch=0, n_samples=1)
 
 
+@checked
 def transient_periods(osc: Oscillator) -> int:
     """Mesh periods that a transient needs to fall to 9 digits at best: ``20 / (zeta T)``, within 500 to 20 000.
 
@@ -210,7 +208,7 @@ def settle_batch(
     Returns
     -------
     Settled
-        Arrays with one row a motion. Ctrl-C keeps the rows that are done, with a warning.
+        Arrays with one row a motion.
     """
     n = len(starts)
     out = blank(n, settings)
@@ -221,9 +219,10 @@ def settle_batch(
     single = chain == n  # one chain is carried along in parts, one after the other
     block = BLOCK_OF_ONE if len(oscillators) == 1 else BLOCK if chain == 1 or single else chain
     watches = np.where(lanes.scalars.reshape(-1, 5)[lanes.own, 3] > 0.0, settings.n_watch, 0)  # of damped motions alone
-    longest = np.minimum(lanes.n_transient + settings.n_exponent + watches, most).sum()
-    with stoppable(out, progress, longest) as done:
-        on_all_cores(settle_lanes, arguments, n, block, done, cores and not single)
+    periods = np.minimum(lanes.n_transient + settings.n_exponent + watches, most)
+    text, longest = f"at most {periods.sum():.1e} mesh periods", float(periods.max(initial=0))
+    with tqdm(desc=text, total=n, unit="motion", disable=not progress) as bar:
+        on_all_cores(settle_lanes, arguments, n, block, bar.update, cores and not single, longest=longest)
     return out
 
 
@@ -236,21 +235,6 @@ def settle_both_ways(
     lanes = [*oscillators, *(oscillators[i] for i in back.tolist())]
     out = settle_batch(lanes, np.concatenate([starts, starts[back]]), settings, chain=chain, **how)
     return Settled._make(column[:n] for column in out), Settled._make(column[n:][back] for column in out)
-
-
-@contextmanager
-def stoppable(out: Settled, progress: bool, most: float) -> Iterator[Callable[[int], object]]:
-    """A progress bar over a batch, moved by calling what is yielded; Ctrl-C keeps the rows that are done.
-
-    It tells beforehand the `most` mesh periods that the batch may take, about a microsecond each.
-    """
-    n = len(out.status)
-    with tqdm(desc=f"at most {most:.1e} mesh periods", total=n, unit="motion", disable=not progress) as bar:
-        try:
-            yield bar.update
-        except KeyboardInterrupt:
-            done = int(np.sum(out.status != NOT_RUN))
-            warnings.warn(f"stopped after {done} of {n} motions; the rest has status 'not_run'", stacklevel=5)
 
 
 def lanes_of(oscillators: Sequence[Oscillator], starts: NDArray[np.float64], settings: SettleSettings) -> Lanes:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gearpair._checks import checked, shown
 from gearpair._equality import equal_by_value
 from gearpair.motion.trajectories import Trajectory
 
@@ -32,7 +34,8 @@ class Spectrum:
         return float(self.amplitude[np.argmin(np.abs(self.frequency - frequency))])
 
 
-def spectrum(trajectory: Trajectory, *, window: str = "boxcar") -> Spectrum:
+@checked
+def spectrum(trajectory: Trajectory, *, window: str | tuple[Any, ...] = "boxcar") -> Spectrum:
     """Amplitude spectrum of X by the discrete Fourier transform.
 
     Parameters
@@ -40,7 +43,7 @@ def spectrum(trajectory: Trajectory, *, window: str = "boxcar") -> Spectrum:
     trajectory : Trajectory
         Whole mesh periods, as `gearpair.trajectory` gives them; the end point, which repeats the phase of
         the start, is left out.
-    window : str
+    window : str or tuple
         A window of `scipy.signal.get_window`, scaled so that a line keeps its amplitude. The default
         is exact for a periodic motion when the number of mesh periods is a multiple of its period;
         ``"hann"`` suits aperiodic motions.
@@ -61,7 +64,12 @@ def spectrum(trajectory: Trajectory, *, window: str = "boxcar") -> Spectrum:
     from scipy.signal import get_window  # here, so that importing gearpair stays quick
 
     x = trajectory.x[:-1]
-    weights = get_window(window, len(x))
+    try:
+        if not isinstance(window, (str, tuple)):  # of a number scipy would make a Kaiser window
+            raise ValueError
+        weights = get_window(window, len(x))
+    except ValueError:
+        raise ValueError(f"window must be one of scipy.signal.get_window, as 'boxcar', got {shown(window)}") from None
     amplitude = np.abs(np.fft.rfft(x * weights)) / weights.sum()
     amplitude[1 : (len(x) + 1) // 2] *= 2.0
     frequency = np.linspace(0.0, len(amplitude) - 1.0, len(amplitude)) * trajectory.samples_per_period / len(x)

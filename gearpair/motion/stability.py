@@ -5,14 +5,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_count
+from gearpair._checks import check_array, check_count, checked
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.observe import exponents
-from gearpair._flow.walk import OK, walk
-from gearpair.motion.trajectories import check_start, raise_unless_ok
+from gearpair._flow.observe import stretch
+from gearpair.motion.trajectories import check_start, passed, raise_unless_ok
 from gearpair.oscillator import Oscillator
 
+AT_ONCE = 100_000  # mesh periods between two chances to stop
 
+
+@checked
 def lyapunov_exponents(
     osc: Oscillator, x: float, v: float, n_periods: int, *, n_transient: int = 500
 ) -> NDArray[np.float64]:
@@ -43,13 +45,20 @@ def lyapunov_exponents(
     x, v = check_start(x, v)
     n_periods = check_count("n_periods", n_periods)
     n_transient = check_count("n_transient", n_transient, at_least=0)
-    status, x, v = walk(osc.cells, x, v, n_transient, np.empty(TERMS))
-    if status == OK:
-        status, x, v, largest, _error = exponents(osc.cells, x, v, n_periods, n_periods, 1, np.empty(4))
-    raise_unless_ok(status, n_transient + n_periods)
+    x, v = passed(osc, x, v, n_transient)
+    q, series, reach = np.eye(2), np.empty(TERMS), np.array([x, x, 0.0, 0.0])
+    for _ in range(2):  # to turn the tangent, then to measure
+        growth = 0.0
+        for done in range(0, n_periods, AT_ONCE):
+            span = min(AT_ONCE, n_periods - done)
+            status, x, v, total = stretch(osc.cells, x, v, span, series, q, reach)
+            raise_unless_ok(status, n_transient + n_periods)
+            growth += total
+    largest = growth / (n_periods * osc.period)
     return np.array([largest, -2.0 * osc.damping_ratio - largest])
 
 
+@checked
 def multipliers_of(monodromy: NDArray[np.float64]) -> NDArray[np.complex128]:
     """Eigenvalues of 2 x 2 matrices, shape (..., 2, 2), the largest modulus first (then the larger imaginary part).
 
@@ -58,6 +67,9 @@ def multipliers_of(monodromy: NDArray[np.float64]) -> NDArray[np.complex128]:
     >>> multipliers_of(np.array([[0.0, -0.25], [1.0, 0.0]])).tolist()
     [0.5j, -0.5j]
     """
+    monodromy = check_array("monodromy", monodromy, finite=False)
+    if monodromy.shape[-2:] != (2, 2):
+        raise ValueError(f"monodromy must be matrices of shape (..., 2, 2), got shape {monodromy.shape}")
     half = 0.5 * (monodromy[..., 0, 0] + monodromy[..., 1, 1])
     determinant = monodromy[..., 0, 0] * monodromy[..., 1, 1] - monodromy[..., 0, 1] * monodromy[..., 1, 0]
     root = np.sqrt(half * half - determinant + 0j)

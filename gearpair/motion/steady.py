@@ -8,6 +8,7 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import NDArray
 
+from gearpair._checks import checked
 from gearpair._equality import equal_by_value
 from gearpair._flow.states import Settled
 from gearpair.motion.impacts import ImpactState, impact_state
@@ -66,6 +67,7 @@ class SteadyState:
         return Motion(self.status, self.period, self.impact_state)
 
 
+@checked
 def steady_state(
     osc: Oscillator,
     x: float = 1.0,

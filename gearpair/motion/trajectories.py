@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count
-from gearpair._cores import on_all_cores
+from gearpair._checks import check_array, check_count, checked
+from gearpair._cores import SHORT, aside, on_all_cores
 from gearpair._equality import equal_by_value
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.observe import record
@@ -23,6 +24,7 @@ from gearpair._flow.walk import (
 )
 from gearpair.oscillator import Oscillator
 
+WATCHED = 10  # times as long a mesh period takes where each of its segments is looked at
 PERIODS_AT_ONCE = 10_000  # of the walk, between two chances to stop: some ten milliseconds
 CAPPED = {
     TOO_MANY_EVENTS: f"more than {MAX_EVENTS_PER_PERIOD} contacts and separations in one mesh period: "
@@ -85,16 +87,19 @@ class Trajectory:
 
 
 def check_starts(x: ArrayLike, v: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Broadcast starts against each other, or raise a ValueError that says what is wrong with them."""
+    """Broadcast starts against each other, those of xarray by dimension; a ValueError says what is wrong with them."""
+    given: list[Any] = [x, v]
+    if all(hasattr(each, "dims") for each in given):
+        from xarray import broadcast
+
+        given = list(broadcast(*given))
+    xs, vs = check_array("x", given[0]), check_array("v", given[1])
     try:
-        xs, vs = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(v, dtype=float))
-    except (TypeError, ValueError):
+        xs, vs = np.broadcast_arrays(xs, vs)
+    except ValueError:
         raise ValueError(
             f"x and v must be numbers of shapes that broadcast, got shapes {np.shape(x)} and {np.shape(v)}"
         ) from None
-    for name, values in (("x", xs), ("v", vs)):
-        if not np.all(np.isfinite(values)):
-            raise ValueError(f"{name} must be finite, got {values[~np.isfinite(values)].flat[0]}")
     return xs, vs
 
 
@@ -106,6 +111,7 @@ def check_start(x: ArrayLike, v: ArrayLike) -> tuple[float, float]:
     return float(xs), float(vs)
 
 
+@checked
 def stroboscopic_map(
     osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -146,13 +152,14 @@ def stroboscopic_map(
     starts = np.stack([xs.ravel(), vs.ravel()], axis=1)
     ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
     block = max(1, PERIODS_AT_ONCE // max(n, 1))
-    on_all_cores(walk_starts, (osc.cells, starts, n, ends, status), len(starts), block)
+    on_all_cores(walk_starts, (osc.cells, starts, n, ends, status), len(starts), block, longest=n)
     raise_if_capped(status, starts)
     gone = status == ESCAPED
     ends[gone] = np.copysign(np.inf, ends[gone])
     return ends[:, 0].reshape(xs.shape), ends[:, 1].reshape(xs.shape)
 
 
+@checked
 def trajectory(
     osc: Oscillator,
     x: float,
@@ -193,13 +200,13 @@ def trajectory(
     n_periods = check_count("n_periods", n_periods)
     n_transient = check_count("n_transient", n_transient, at_least=0)
     samples_per_period = check_count("samples_per_period", samples_per_period)
-    status, x, v = walk(osc.cells, x, v, n_transient, np.empty(TERMS))
-    raise_unless_ok(status, n_transient)
+    x, v = passed(osc, x, v, n_transient)
     samples = np.empty((n_periods * samples_per_period + 1, 2))
     crossings = np.empty((0, 4))
     for _ in range(2):  # once to count the crossings, once to list them
         counts = np.zeros(2, np.int64)
-        status, *samples[-1] = record(osc.cells, x, v, n_periods, samples_per_period, samples, crossings, counts)
+        arguments = (osc.cells, x, v, n_periods, samples_per_period, samples, crossings, counts)
+        status, *samples[-1] = aside(record, *arguments, periods=n_periods * WATCHED)
         raise_unless_ok(status, n_transient + int(counts[0]) // samples_per_period)
         crossings = np.empty((int(counts[1]), 4)) if len(crossings) == 0 else crossings
     impacts = Impacts(
@@ -207,6 +214,15 @@ def trajectory(
     )
     tau = np.linspace(0.0, n_periods * osc.period, len(samples))
     return Trajectory(osc, tau, samples[:, 0], samples[:, 1], impacts, samples_per_period, "exact")
+
+
+def passed(osc: Oscillator, x: float, v: float, n_periods: int) -> tuple[float, float]:
+    """Where a motion is after `n_periods`, or the RuntimeError that says why it is not; Ctrl-C may come in between."""
+    series = np.empty(TERMS)
+    for done in range(0, n_periods, SHORT):
+        status, x, v = walk(osc.cells, x, v, min(SHORT, n_periods - done), series)
+        raise_unless_ok(status, n_periods)
+    return x, v
 
 
 def raise_if_capped(status: NDArray[np.int64], starts: NDArray[np.float64]) -> None:

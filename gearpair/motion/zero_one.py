@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearpair._checks import check_count
+from gearpair._checks import check_array, check_count, checked
 
 FEWEST = 200  # values below which the test says little
 
 
+@checked
 def zero_one_test(values: ArrayLike, n_frequencies: int = 100) -> float:
     """The 0-1 test's growth rate K of a series, from -1 to 1: near 1 for chaos, near 0 for regular motion.
 
@@ -35,12 +36,10 @@ def zero_one_test(values: ArrayLike, n_frequencies: int = 100) -> float:
     >>> [bool(zero_one_test(x) > 0.5) for x in two.x.values]
     [False, True]
     """
-    series = np.asarray(values, dtype=float)
+    series = check_array("values", values)
     check_count("n_frequencies", n_frequencies)
     if series.ndim != 1 or series.size < FEWEST:
         raise ValueError(f"values must be a sequence of at least {FEWEST} numbers, got shape {series.shape}")
-    if not np.all(np.isfinite(series)):
-        raise ValueError("values must be finite, got nan or inf among them")
     series = series - series.mean()
     n, cut = series.size, series.size // 10
     # Golden steps, so that no frequency is a low-order resonance of a periodic series.

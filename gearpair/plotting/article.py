@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
+from gearpair._checks import checked
 from gearpair.article import published
 from gearpair.article.case.existence import Reached
 from gearpair.article.case.scoring import published_motions
@@ -22,6 +23,7 @@ from gearpair.plotting.style import BACKLASH, BOUNDARY, INK, STYLE, motion_colou
 from gearpair.quantities import QUANTITIES, axis_label
 
 
+@checked
 def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax: Axes | None = None) -> Axes:
     """Mean and best score of every hypothesis, in their order, and the names of those `marked`.
 
@@ -51,6 +53,7 @@ def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax
     return ax
 
 
+@checked
 def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = "") -> Axes:
     """Where each motion exists along a parameter, over the published ranges.
 
@@ -80,6 +83,7 @@ def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = ""
     return ax
 
 
+@checked
 def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], ax: Axes | None = None) -> Axes:
     """The share of both published axes that each phase between forcing and stiffness can account for.
 
@@ -105,6 +109,7 @@ def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], 
     return ax
 
 
+@checked
 def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = None) -> list[Axes]:
     """How far each published boundary is from the drawn one, against the steps a mesh period of fixed-step diagrams.
 
@@ -159,6 +164,7 @@ def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = No
     return list(axes)
 
 
+@checked
 def stiffness_trends(
     published: Sequence[StiffnessRow], computed: Mapping[str, Sequence[StiffnessRow]], axes: Sequence[Axes]
 ) -> list[Axes]:
@@ -184,6 +190,7 @@ def stiffness_trends(
     return list(axes)
 
 
+@checked
 def contact_ratio_cloud(ratios: ArrayLike, published: Sequence[StiffnessRow], ax: Axes | None = None) -> Axes:
     """Contact ratio of the first pair and its growth to the last: many tooth systems, and the article.
 

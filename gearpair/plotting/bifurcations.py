@@ -9,6 +9,7 @@ from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
+from gearpair._checks import checked
 from gearpair.bifurcations.branches import Branch
 from gearpair.bifurcations.curves import BifurcationCurve
 from gearpair.motion.names import periodic
@@ -19,6 +20,7 @@ MARKERS = {"fold": "^", "flip": "o", "grazing": "D"}
 DASHES: dict[str, Any] = {"fold": "-", "flip": "--", "grazing": ":"}
 
 
+@checked
 def branches(
     found: Iterable[Branch], ax: Axes | None = None, *, periods: Sequence[int] | None = None, markers: bool = True
 ) -> Axes:
@@ -86,6 +88,7 @@ def _runs(stable: np.ndarray, wanted: bool) -> np.ndarray:
     return widened
 
 
+@checked
 def bifurcation_curves(
     curves: Iterable[BifurcationCurve], ax: Axes | None = None, *, colour: str | None = None
 ) -> Axes:

@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
+from gearpair._checks import checked
 from gearpair.article.published import COMPLEX, Boundary, Range
 from gearpair.ensembles.ranges import MotionRange, motion_ranges, swept_parameter
 from gearpair.motion.names import CHAOS, Motion, motions_of
@@ -30,6 +31,7 @@ LETTER = 0.0115  # share of the axis that a letter of a bar's name takes
 LARGEST_DRAWN = 10.0  # |X| where a diagram ends
 
 
+@checked
 def bifurcation_diagram(
     sweep: xr.Dataset,
     ax: Axes | None = None,
@@ -99,6 +101,7 @@ def _section_points(sweep: xr.Dataset, chosen: np.ndarray) -> np.ndarray:
     return x
 
 
+@checked
 def mark_boundaries(boundaries: Iterable[Boundary], ax: Axes) -> Axes:
     """Dotted vertical lines where the article puts its boundaries.
 
@@ -125,6 +128,7 @@ def mark_boundaries(boundaries: Iterable[Boundary], ax: Axes) -> Axes:
     return ax
 
 
+@checked
 def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """Smallest and largest X along a sweep, coloured by motion, over the strip where the teeth are out of contact.
 
@@ -151,6 +155,7 @@ def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) 
     return ax
 
 
+@checked
 def exponents(sweep: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, label: str | None = None) -> Axes:
     """The largest Lyapunov exponent along a sweep, within two standard errors, and the line at zero.
 
@@ -175,6 +180,7 @@ def exponents(sweep: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, l
     return ax
 
 
+@checked
 def range_strips(
     strips: Mapping[str, xr.Dataset | Iterable[MotionRange | Range]],
     ax: Axes | None = None,
@@ -234,6 +240,7 @@ def _runs_and_half_step(sweep: xr.Dataset) -> tuple[Iterable[MotionRange], float
     return motion_ranges(sweep), 0.5 * float(steps.min()) if len(steps) else 0.0
 
 
+@checked
 def range_lanes(
     sources: Mapping[str, Iterable[MotionRange | Range]], ax: Axes | None = None, *, parameter: str | None = None
 ) -> Axes:
@@ -277,6 +284,7 @@ def range_lanes(
     return ax
 
 
+@checked
 def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """The share of the starts that reaches each kind of motion, stacked over the parameter.
 
@@ -301,6 +309,7 @@ def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
     return ax
 
 
+@checked
 def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """The shares of the attractors along a parameter, stacked, with a triangle at each tipping point.
 

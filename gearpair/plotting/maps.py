@@ -12,6 +12,7 @@ from matplotlib.colors import ListedColormap, LogNorm, Normalize, to_rgb
 from matplotlib.legend import Legend
 from matplotlib.patches import Patch
 
+from gearpair._checks import checked
 from gearpair.ensembles.planes import attractor_motions
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import IMPACT_NAMES, Motion, motions_of
@@ -47,6 +48,7 @@ def attractor_colours(result: xr.Dataset) -> list[Colour]:
     return colours
 
 
+@checked
 def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """Which attractor each start reaches, a second motion of a kind paler; starts that reach none are white.
 
@@ -77,6 +79,7 @@ def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -
     return ax
 
 
+@checked
 def impact_states(result: xr.Dataset, ax: Axes | None = None, *, worst: bool = False, legend: bool = True) -> Axes:
     """In which impact state each start ends, or the `worst` of its whole way: the harsher the darker.
 
@@ -120,6 +123,7 @@ def name_colours(ax: Axes, colours: Mapping[str, Colour], **place: Any) -> Legen
     return ax.legend(handles=handles, **place)
 
 
+@checked
 def attractor_points(states: Sequence[SteadyState], ax: Axes) -> Axes:
     """The section points of periodic attractors, as white-rimmed dots over a map of their basins.
 
@@ -142,6 +146,7 @@ def attractor_points(states: Sequence[SteadyState], ax: Axes) -> Axes:
     return ax
 
 
+@checked
 def finite_exponents(result: xr.Dataset, ax: Axes | None = None, *, largest: float | None = None) -> Axes:
     """The largest Lyapunov exponent from each start: dark where neighbours part, pale where they stay together.
 
@@ -161,6 +166,7 @@ def finite_exponents(result: xr.Dataset, ax: Axes | None = None, *, largest: flo
     return ax
 
 
+@checked
 def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """The impact state at each point of a grid of two parameters, the harsher the darker.
 
@@ -180,6 +186,7 @@ def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     return ax
 
 
+@checked
 def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """The motion at each point of a grid of two parameters, in the colours of all figures.
 
@@ -201,6 +208,7 @@ def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     return ax
 
 
+@checked
 def quantity_map(
     result: xr.Dataset,
     quantity: str,

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from gearpair._checks import checked
 from gearpair.ensembles.ranges import swept_parameter
 from gearpair.methods.certificates import Segment
 from gearpair.methods.precision import EXACT, Precision, numerical_chaos
@@ -29,6 +30,7 @@ T = "$t$ (widths of the cell)"
 BESIDE: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "color": BOUNDARY, "fontsize": 8}  # a line's name
 
 
+@checked
 def work_precision(measured: Sequence[Precision], ax: Axes | None = None) -> Axes:
     """Time per mesh period over the one-period error of `gearpair.methods.work_precision`, both logarithmic, by method.
 
@@ -53,6 +55,7 @@ def work_precision(measured: Sequence[Precision], ax: Axes | None = None) -> Axe
     return ax
 
 
+@checked
 def drawn_diagram(
     exact: xr.Dataset, drawn: xr.Dataset, ax: Axes | None = None, *, title: str = "", legend: bool = True
 ) -> Axes:  # fmt: skip
@@ -95,6 +98,7 @@ def drawn_diagram(
     return ax
 
 
+@checked
 def certificate(segment: Segment | None, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """A segment with its Bézier points, their hull and the boundaries in sight; that none was met, for None.
 
@@ -142,6 +146,7 @@ def _show_boundaries(segment: Segment, ax: Axes, low: float, high: float) -> Non
     ax.set_ylim(min([low, *near]) - room, max([high, *near]) + room)
 
 
+@checked
 def interpolation_error(segment: Segment | None, ax: Axes | None = None) -> Axes:
     """The motion less its cubic Hermite interpolant, between the bounds.
 
@@ -168,6 +173,7 @@ def interpolation_error(segment: Segment | None, ax: Axes | None = None) -> Axes
     return ax
 
 
+@checked
 def certified_steps(segment: Segment | None, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """The distance to the boundary that limits the steps, and the parabola under it that certifies each step.
 
@@ -204,6 +210,7 @@ def certified_steps(segment: Segment | None, ax: Axes | None = None, *, legend: 
     return ax
 
 
+@checked
 def step_convergence(segment: Segment | None, ax: Axes | None = None) -> Axes:
     """The distance left, on a logarithmic scale, at each certified step of a segment with a crossing.
 

@@ -8,6 +8,8 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from gearpair._checks import check_choice, check_count, check_number, checked
+from gearpair.bifurcations.orbits import PeriodicOrbit
 from gearpair.motion.spectra import Spectrum
 from gearpair.motion.spectra import spectrum as spectrum_of
 from gearpair.motion.steady import SteadyState
@@ -22,6 +24,7 @@ LOWEST_LINE = 1e-5  # amplitudes below are rounding, not motion
 VIEWS = ("time history", "phase portrait", "Poincaré section", "spectrum")
 
 
+@checked
 def time_history(
     motion: Trajectory, ax: Axes | None = None, *, n_periods: int | None = None, colour: str = INK, impacts: bool = True
 ) -> Axes:
@@ -54,7 +57,8 @@ def time_history(
 
 def _first_periods(motion: Trajectory, n_periods: int | None) -> tuple[int, np.ndarray]:
     """How many samples the first periods are, and which impacts of theirs make contact."""
-    last = motion.samples_per_period * n_periods + 1 if n_periods else len(motion.tau)
+    shown = None if n_periods is None else check_count("n_periods", n_periods)
+    last = motion.samples_per_period * shown + 1 if shown else len(motion.tau)
     return last, motion.impacts.contact & (motion.impacts.tau <= motion.tau[:last][-1])
 
 
@@ -65,6 +69,7 @@ def _contact_dots(ax: Axes, across: np.ndarray, up: np.ndarray, colour: str) -> 
     )  # fmt: skip
 
 
+@checked
 def phase_portrait(
     motion: Trajectory, ax: Axes | None = None, *, n_periods: int | None = None, colour: str = INK, impacts: bool = True
 ) -> Axes:
@@ -87,10 +92,17 @@ def phase_portrait(
     return ax
 
 
+@checked
 def poincare_section(
-    motion: Trajectory, ax: Axes | None = None, *, colour: str = INK, size: float | None = None
+    motion: Trajectory | SteadyState | PeriodicOrbit,
+    ax: Axes | None = None,
+    *,
+    colour: str = INK,
+    size: float | None = None,
 ) -> Axes:
     """X' over X once per mesh period, at ``tau mod T = 0``; dots of `size` points, or as their number suggests.
+
+    Of a settled motion or an orbit, the section points that it holds.
 
     Examples
     --------
@@ -100,7 +112,10 @@ def poincare_section(
     21
     """
     ax = new_axes(ax, 5.0)
-    x, v = motion.x[:: motion.samples_per_period], motion.v[:: motion.samples_per_period]
+    if isinstance(motion, Trajectory):
+        x, v = motion.x[:: motion.samples_per_period], motion.v[:: motion.samples_per_period]
+    else:
+        x, v = motion.points.T
     few = len(np.unique(np.round(np.stack([x, v]), 6), axis=1).T) <= 64
     size = size or (5.0 if few else 1.0)
     ax.plot(x, v, "o", markeredgewidth=0, markersize=size, color=colour, rasterized=not few)
@@ -108,6 +123,7 @@ def poincare_section(
     return ax
 
 
+@checked
 def spectrum(
     lines: Spectrum, ax: Axes | None = None, *, period: int | None = None, highest: float = 3.0, colour: str = INK
 ) -> Axes:
@@ -127,7 +143,9 @@ def spectrum(
     >>> ax.get_ylabel(), ax.get_yscale()
     ('amplitude', 'log')
     """
-    ax = new_axes(ax)
+    highest, ax = check_number("highest", highest, above=0.0), new_axes(ax)
+    if period is not None:
+        check_count("period", period)
     shown = (lines.frequency > 0.0) & (lines.frequency <= highest)
     frequency, amplitude = lines.frequency[shown], lines.amplitude[shown]
     for k in range(1, int(highest * (period or 1)) + 1):
@@ -144,6 +162,7 @@ def spectrum(
     return ax
 
 
+@checked
 def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: str = "") -> list[Axes]:
     """A settled motion in four views: time history, phase portrait, Poincaré section, spectrum.
 
@@ -179,6 +198,7 @@ def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: s
     return list(axes)
 
 
+@checked
 def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequency") -> Figure:
     """Settled motions under one another, each a row of the four views of `portrait`.
 
@@ -201,6 +221,7 @@ def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequen
     with plt.style.context({**STYLE, "font.size": 8.0, "axes.labelsize": 8.0}):
         figure = plt.figure(figsize=(8.6, 0.5 + 1.75 * len(states)))
         grid = figure.subplots(len(states), len(VIEWS), squeeze=False)
+        check_choice("parameter", parameter, [name for name in QUANTITIES if QUANTITIES[name].in_tex])
         for row, (name, state) in zip(grid, states.items(), strict=True):
             symbol = QUANTITIES[parameter].in_tex
             portrait(state, row, title=f"{name}  (${symbol} = {state.oscillator.parameter(parameter):.4g}$)")

@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
+from gearpair._checks import checked
 from gearpair.design import IdleRattle, IsoDynamicFactor
 from gearpair.design.sensitivities import OUTCOMES
 from gearpair.plotting.maps import IMPACT_COLOURS, impact_colours, name_colours
@@ -30,6 +31,7 @@ CHANGES: Mapping[str, str] = {
 }
 
 
+@checked
 def dynamic_factors(
     chart: xr.Dataset, iso: IsoDynamicFactor | None = None, ax: Axes | None = None, *, jumps: bool = True
 ) -> Axes:
@@ -130,6 +132,7 @@ def _strips(ax: Axes, chart: xr.Dataset) -> None:
     ax.add_artist(key)
 
 
+@checked
 def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]:
     """What the teeth bear over the speed: the dynamic transmission error, and impacts, of both runs.
 
@@ -156,6 +159,7 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]
     return axes
 
 
+@checked
 def tornado(
     found: xr.Dataset, outcome: str = "dynamic_factor", ax: Axes | None = None, *, sort_by: str | None = None
 ) -> Axes:
@@ -199,6 +203,7 @@ def tornado(
     return ax
 
 
+@checked
 def rattle(found: IdleRattle, ax: Axes | None = None) -> Axes:
     """Impacts of an idle gear over the speed, and where its inertia torque exceeds the drag.
 

@@ -10,6 +10,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
+from gearpair._checks import checked
 from gearpair.article.published import CHAOTIC, COMPLEX
 from gearpair.motion.names import CHAOS, Motion
 from gearpair.quantities import axis_label
@@ -63,6 +64,7 @@ BOUNDARY = "#8C8577"
 INK = "#1F3A5F"  # curves that have no period to tell
 
 
+@checked
 def motion_colour(motion: Motion) -> str:
     """The colour of a motion, whatever its impact state.
 
@@ -82,6 +84,7 @@ def legend_name(motion: Motion) -> str:
     return "other periods" if kind.period and name not in MOTION_COLOURS else name
 
 
+@checked
 def add_motion_legend(ax: Axes, motions: Iterable[Motion]) -> None:
     """A row of coloured dots above the axes, in the order of `MOTION_COLOURS`.
 

@@ -7,6 +7,7 @@ import xarray as xr
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 
+from gearpair._checks import checked
 from gearpair.ensembles.lifetimes import estimate_of
 from gearpair.plotting.style import BOUNDARY, INK, new_axes
 from gearpair.quantities import axis_label
@@ -17,6 +18,7 @@ LIVES, SHORTEST, LONGEST = colormaps["plasma"], 0.72, 0.02
 SHARES = {1.0: "all", 0.5: "half", 0.1: "1 in 10", 0.01: "1 in 100", 0.001: "1 in 1000"}
 
 
+@checked
 def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, legend: bool = True) -> Axes:
     """The starts still on their way over the mesh periods, on a logarithmic scale, with the fitted escape rate.
 
@@ -53,6 +55,7 @@ def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, colour: str = 
     return ax
 
 
+@checked
 def survival_curves(
     results: Mapping[str, xr.Dataset], ax: Axes | None = None, *, until: int | None = None, lowest: float = 0.005
 ) -> Axes:

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from gearpair._checks import check_count, checked
 from gearpair.plotting.style import BOUNDARY, INK, new_axes, note
 from gearpair.quantities import axis_label
 from gearpair.teeth.finite_elements import MEASURES, FiniteElementBody
@@ -44,6 +45,7 @@ LABEL_STIFFNESS = "stiffness per width (N/mm/µm)"
 SINCE_ENTRY = "mesh periods since the pair entered contact"
 
 
+@checked
 def per_width(mesh: MeshStiffness) -> float:
     """Factor from N/m to N/(mm µm): stiffness per millimetre of face width and micrometre of approach.
 
@@ -57,6 +59,7 @@ def per_width(mesh: MeshStiffness) -> float:
     return 1e-6 / mesh.pair.face_width_mm
 
 
+@checked
 def tooth_outlines(
     gear: SpurGear, ax: Axes | None = None, *, roots: Sequence[Root] = ("trochoid", "straight", "base_circle")
 ) -> Axes:
@@ -106,6 +109,7 @@ def _outline(tooth: ToothProfile) -> tuple[Array, Array]:
     return np.concatenate([-h, h[::-1]]), np.concatenate([y, y[::-1]])
 
 
+@checked
 def compliance_stack(mesh: MeshStiffness, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """What the compliance of one pair of teeth is made of, stacked along its path of contact.
 
@@ -142,6 +146,7 @@ def _along_contact(mesh: MeshStiffness, ax: Axes, ylabel: str) -> None:
     ax.set(xlabel=SINCE_ENTRY, ylabel=ylabel, xlim=(0.0, mesh.contact_ratio), ylim=(0.0, None))
 
 
+@checked
 def pair_stiffness(mesh: MeshStiffness, ax: Axes | None = None, *, colour: str = INK, label: str | None = None) -> Axes:
     """Stiffness of one pair of teeth alone along its path of contact.
 
@@ -158,6 +163,7 @@ def pair_stiffness(mesh: MeshStiffness, ax: Axes | None = None, *, colour: str =
     return ax
 
 
+@checked
 def mesh_curves(
     meshes: Mapping[str, MeshStiffness],
     ax: Axes | None = None,
@@ -190,6 +196,7 @@ def mesh_curves(
     >>> ax.lines[0].get_label(), float(ax.get_xlim()[1])
     ('34 and 34 teeth', 3.0)
     """
+    n_periods = check_count("n_periods", n_periods)
     ax = new_axes(ax, 3.0)
     for k, (name, mesh) in enumerate(meshes.items()):
         factor, colour = per_width(mesh), colours[k % len(colours)]
@@ -210,6 +217,7 @@ def mesh_curves(
     return ax
 
 
+@checked
 def load_shares(
     meshes: Mapping[str, MeshStiffness], ax: Axes | None = None, *, colours: Sequence[str] = (INK, "#D55E00")
 ) -> Axes:
@@ -232,6 +240,7 @@ def load_shares(
     return ax
 
 
+@checked
 def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Sequence[Axes]) -> list[Axes]:
     """Compliance of one tooth and its gear body: the fast curve, finite elements, and how far apart they are.
 

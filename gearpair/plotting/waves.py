@@ -3,11 +3,13 @@
 import numpy as np
 from matplotlib.axes import Axes
 
+from gearpair._checks import check_count, checked
 from gearpair.plotting.style import BOUNDARY, INK, new_axes, note
 from gearpair.quantities import axis_label
 from gearpair.stiffness import StiffnessWave
 
 
+@checked
 def stiffness_wave(
     wave: StiffnessWave,
     ax: Axes | None = None,
@@ -24,7 +26,7 @@ def stiffness_wave(
     >>> stiffness_wave(StiffnessWave.rectangular()).texts[0].get_text()
     'mean 0.9464'
     """
-    ax = new_axes(ax, 2.6)
+    n_periods, ax = check_count("n_periods", n_periods), new_axes(ax, 2.6)
     edges = np.concatenate([np.add(wave.edges, k) for k in range(n_periods)] + [[float(n_periods)]])
     ax.stairs(np.tile(wave.levels, n_periods), edges, baseline=None, linewidth=1.8, color=colour, label=label)
     if mean:
@@ -39,6 +41,7 @@ def stiffness_wave(
     return ax
 
 
+@checked
 def harmonics(
     wave: StiffnessWave, n: int, ax: Axes | None = None, *, colour: str = INK, label: str | None = None,
     offset: float = 0.0,
@@ -57,7 +60,7 @@ def harmonics(
     >>> harmonics(StiffnessWave.rectangular(), 3).get_xticks().tolist()
     [1, 2, 3]
     """
-    ax = new_axes(ax, 2.6)
+    n, ax = check_count("n", n), new_axes(ax, 2.6)
     order = np.arange(1, n + 1)
     amplitude = 2.0 * np.abs(wave.harmonics(n)[1:])
     ax.vlines(order + offset, 0.0, amplitude, color=colour, linewidth=1.4)

@@ -13,6 +13,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from gearpair._checks import checked
+from gearpair._equality import equal_by_value
 from gearpair.teeth.compliance import hertz_compliance
 from gearpair.teeth.spurpair import SpurGear, SpurPair
 
@@ -20,7 +22,8 @@ Array = NDArray[np.float64]
 MEASURES = ("section", "tip", "centre")
 
 
-@dataclass(frozen=True, eq=False)
+@equal_by_value
+@dataclass(frozen=True)
 class FiniteElementBody:
     """A gear on its bore with one, several or all of its teeth, loaded at eleven places of the path of contact.
 
@@ -70,6 +73,7 @@ class FiniteElementBody:
         return type(self)(self.name, self.pair, mate, self.positions, turned, self.change_on_refining)
 
 
+@checked
 def finite_element_bodies() -> dict[str, FiniteElementBody]:
     """The stored bodies by name.
 
@@ -96,6 +100,7 @@ def finite_element_bodies() -> dict[str, FiniteElementBody]:
     return bodies
 
 
+@checked
 def double_contact_stiffness(
     pinion: FiniteElementBody, gear: FiniteElementBody, *, coupled: bool = True
 ) -> tuple[Array, Array]:

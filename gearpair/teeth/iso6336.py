@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+from gearpair._checks import checked
 from gearpair.teeth.spurpair import SpurPair
 
 _STEEL_MPA = 206_000.0
@@ -38,6 +39,7 @@ class IsoStiffness:
         return self.mesh * self.face_width_mm * 1e6
 
 
+@checked
 def iso_stiffness(pair: SpurPair) -> IsoStiffness:
     """Single and mesh stiffness of a spur pair by ISO 6336-1, method B.
 

@@ -13,7 +13,8 @@ from numpy.polynomial import Legendre
 from numpy.polynomial.legendre import leggauss, legvander
 from numpy.typing import NDArray
 
-from gearpair._checks import check_choice, check_count
+from gearpair._checks import check_choice, check_count, checked
+from gearpair._equality import equal_by_value
 from gearpair.stiffness import Rectangle, StiffnessWave
 from gearpair.teeth.compliance import foundation_compliance, hertz_compliance, in_foundation_range, tooth_compliance
 from gearpair.teeth.gear_body import ring_compliance
@@ -26,7 +27,8 @@ COUPLINGS = get_args(Coupling)
 _NODES, _WEIGHTS = leggauss(24)
 
 
-@dataclass(frozen=True, eq=False)
+@equal_by_value
+@dataclass(frozen=True)
 class MeshStiffness:
     """The mesh stiffness of one pair over one mesh period; made by `mesh_stiffness`.
 
@@ -153,6 +155,7 @@ class MeshStiffness:
         return StiffnessWave(tuple(edges), tuple(levels))
 
 
+@checked
 def mesh_stiffness(
     pair: SpurPair,
     *,

@@ -14,7 +14,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_choice
+from gearpair._checks import check_choice, check_class
 from gearpair.teeth.spurpair import SpurGear
 
 Array = NDArray[np.float64]
@@ -53,6 +53,7 @@ class ToothProfile:
     root: Root = "trochoid"
 
     def __post_init__(self) -> None:
+        check_class("gear", self.gear, SpurGear)
         check_choice("root", self.root, ROOTS)
 
     @property

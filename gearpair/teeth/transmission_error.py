@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_array, check_count, check_number, checked
 from gearpair.oscillator import Harmonic
 from gearpair.teeth.meshing import MeshStiffness
 
 Array = NDArray[np.float64]
 
 
+@checked
 def tip_relief(mesh: MeshStiffness, pinion_um: float, gear_um: float, length: float) -> Array:
     """What linear reliefs of both tips take off a pair of teeth along its path of contact.
 
@@ -46,6 +47,7 @@ def tip_relief(mesh: MeshStiffness, pinion_um: float, gear_um: float, length: fl
     return np.asarray(gear_um * start + pinion_um * end)
 
 
+@checked
 def profile_error(mesh: MeshStiffness, deviation_um: ArrayLike, *, loaded: bool = True) -> Array:
     """The static transmission error over a mesh period of teeth that all deviate from the involute alike.
 
@@ -77,7 +79,7 @@ def profile_error(mesh: MeshStiffness, deviation_um: ArrayLike, *, loaded: bool 
     >>> round(float(error.min()), 6), round(float(error.max()), 1)
     (0.0, 8.4)
     """
-    deviation = np.asarray(deviation_um, dtype=float)
+    deviation = check_array("deviation_um", deviation_um)
     if deviation.shape != mesh.path.shape or not np.all(np.isfinite(deviation)):
         raise ValueError(
             f"deviation_um must be finite numbers over the path of contact, shape {mesh.path.shape}, "
@@ -90,6 +92,7 @@ def profile_error(mesh: MeshStiffness, deviation_um: ArrayLike, *, loaded: bool 
     return np.asarray(np.where(mesh.load_share > 0.0, each, np.inf).min(axis=0))
 
 
+@checked
 def error_harmonics(error_um: ArrayLike, n: int, *, n_periods: int = 1) -> tuple[Harmonic, ...]:
     """The harmonics of a transmission error, computed or measured.
 
@@ -115,7 +118,7 @@ def error_harmonics(error_um: ArrayLike, n: int, *, n_periods: int = 1) -> tuple
     >>> round(first.amplitude, 9), round(first.phase, 9), round(second.amplitude, 9), round(second.phase, 4)
     (8.0, 0.5, 2.0, 1.5708)
     """
-    samples = np.asarray(error_um, dtype=float)
+    samples = check_array("error_um", error_um)
     n, n_periods = check_count("n", n), check_count("n_periods", n_periods)
     if samples.ndim != 1 or not np.all(np.isfinite(samples)):
         raise ValueError(f"error_um must be a sequence of finite numbers, got shape {samples.shape}")

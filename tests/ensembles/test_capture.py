@@ -175,6 +175,8 @@ def test_chaotic_sets_that_differ_are_told_apart():
     assert result.table["exponent"] == pytest.approx([0.08, 0.08])
     apart = numbered(chaotic(*MIRRORED[:2], [0.08, 0.08, 0.38, 0.08, 0.07]), 1000, NOTHING)
     assert len(np.unique(apart.columns["attractor"])) == 3
+    for low, high in (([-0.2, -2.1], [2.0, 2.0]), ([-0.2, -0.2], [2.0, 0.2])):
+        assert len(numbered(chaotic(low, high, [0.08, 0.08]), 1000, NOTHING).table["counts"]) == 2
 
 
 def test_a_set_that_one_motion_has_left_is_no_attractor():

@@ -142,7 +142,6 @@ def test_shapes_broadcast_and_threads_change_nothing(monkeypatch):
     assert again.identical(result)
 
 
-@pytest.mark.filterwarnings("ignore:stopped after")
 def test_ctrl_c_ends_it(monkeypatch):
     def stop(*_):
         raise KeyboardInterrupt

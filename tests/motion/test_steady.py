@@ -129,7 +129,6 @@ def test_statuses_are_strings_with_a_remedy_each():
         "escaped",
         "capped",
         "exhausted",
-        "not_run",
         "transient",
         "floating",
     }

@@ -321,7 +321,7 @@ TESTED: tuple[tuple[str, Test, str], ...] = (
     ("F13", _near_resonance, "mean of the wave and the published zone"),
     ("D6", _damped, f"a sweep along the frequency, {WATCH}"),
     ("C1", _main_parameter, "kinds counted in two sweeps"),
-    ("C2", _simple, "starts at Omega_h 0.7"),
+    ("C2", _simple, "twelve starts at Omega_h 0.7"),
     *((f"I{i}", partial(_met, state), "") for i, state in enumerate(("none_drive", "single_drive", "double"), 1)),
     ("I4", _unique, "a grid of starts, unique meaning of one period"),
     ("I5", _several, STARTS),
