@@ -13,7 +13,7 @@ from matplotlib import pyplot as plt
 import gearpair as gp
 from tests.support import ROOT
 
-ROOMS = ("motion", "ensembles", "bifurcations", "design", "methods", "teeth", "article", "plotting")
+ROOMS = ("motion", "ensembles", "bifurcations", "boundaries", "design", "methods", "teeth", "article", "plotting")
 OSC = gp.Oscillator()
 QUICK = {"n_transient": 20, "n_exponent": 20, "n_watch": 20}
 SPEEDS = [2000.0, 4000.0]
@@ -27,6 +27,7 @@ def made(name):
     makers = {
         "branch": lambda: gp.continue_orbit(made("state"), "mesh_frequency", 0.7, 0.8),
         "chart": lambda: gp.design.speed_chart(drive, SPEEDS, n_starts=2, locate_jumps=False),
+        "double": lambda: gp.steady_state(OSC, -2.3365, 1.5426),
         "drive": lambda: drive,
         "flip": lambda: made("branch").bifurcations[0],
         "map": lambda: gp.parameter_map(
@@ -74,6 +75,7 @@ CALLS = {
         "basin_stability": lambda: {"osc": OSC, "n": 10, **QUICK},
         "basins": lambda: {"osc": OSC, "x": [0.0, 1.0], "v": [0.0], **QUICK},
         "carried_sweeps": lambda: {"state": made("state"), "parameter": "mesh_frequency", "values": [0.7, 0.71]},
+        "chaotic_saddle": lambda: {"osc": OSC, **WATCH, "n_after": 5},
         "continue_attractors": lambda: {"osc": OSC, **SWEEP, "n": 10, **QUICK},
         "decoded": lambda: {"result": made("plane")},
         "escape_rate": lambda: {"times": [3.0, 5.0], "watched": 10},
@@ -104,6 +106,13 @@ CALLS = {
         "find_orbits": lambda: {"osc": OSC, "max_period": 1, "n_starts": 10},
         "periodic_orbit": lambda: {"osc": OSC, "x": 0.34, "v": -0.25, "period": 2},
         "stable_ranges": lambda: {"branches": [made("branch")]},
+    },
+    "boundaries": {
+        "at_phase": lambda: {"osc": OSC, "phase": 0.5},
+        "backward_map": lambda: {"osc": OSC, "x": [0.0, 1.0], "v": 0.0, "n": 2},
+        "critical_shock": lambda: {"osc": OSC, "state": made("double"), "n_phases": 1, "n_directions": 4, **QUICK},
+        "edge_state": lambda: {"osc": OSC, "a": [-2.3365, 1.5426], "b": made("state"), "n_periods": 20},
+        "manifolds": lambda: {"orbit": gp.periodic_orbit(OSC, -1.5688, -1.0135, 1), "length": 1.0, "spacing": 0.1},
     },
     "design": {
         "find_jumps": lambda: {"up": made("up"), "down": made("up")},

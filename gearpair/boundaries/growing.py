@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_count, check_number, check_reach, checked
 from gearpair._equality import equal_by_value
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.newton import derivative
@@ -61,6 +61,7 @@ class Manifolds:
         return f"manifolds of the orbit of period {self.orbit.period} at X = {x:.5g}, X' = {v:.5g}: " + ", ".join(told)
 
 
+@checked
 def manifolds(
     orbit: PeriodicOrbit,
     *,
@@ -113,7 +114,7 @@ def manifolds(
     """
     spacing, length = check_number("spacing", spacing, above=0.0), check_number("length", length, above=0.0)
     max_points = check_count("max_points", max_points)
-    window = np.array([[*check_window("x", x)], [*check_window("v", v)]])
+    window = np.array([check_reach("x", x), check_reach("v", v)])
     check_saddle(orbit)
     curves: dict[str, list[NDArray[np.float64]]] = {"stable": [], "unstable": []}
     complete = True
@@ -269,18 +270,8 @@ def length_of(curve: NDArray[np.float64]) -> float:
     return float(np.nansum(np.hypot(*np.diff(curve, axis=0).T)))
 
 
-def check_window(name: str, window: tuple[float, float]) -> tuple[float, float]:
-    """Two rising numbers, or a ValueError."""
-    low, high = (check_number(f"{name}[{i}]", value) for i, value in enumerate(window))
-    if not low < high:
-        raise ValueError(f"{name} must be two rising numbers, got {low} and {high}")
-    return low, high
-
-
 def check_saddle(orbit: PeriodicOrbit) -> None:
     """A ValueError unless `orbit` is a saddle."""
-    if not isinstance(orbit, PeriodicOrbit):
-        raise ValueError(f"orbit must be a PeriodicOrbit, of gearpair.periodic_orbit, got {type(orbit).__name__}")
     if orbit.multipliers is None or orbit.multipliers.imag.any() or not _parts(np.abs(orbit.multipliers)):
         raise ValueError(f"orbit must be a saddle, with one multiplier outside the unit circle, got: {orbit!r}")
 

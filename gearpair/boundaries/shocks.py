@@ -8,7 +8,7 @@ from typing import Literal, Unpack, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_choice, check_count, check_number
+from gearpair._checks import check_choice, check_count, check_number, checked
 from gearpair._equality import equal_by_value
 from gearpair.bifurcations.orbits import PeriodicOrbit
 from gearpair.boundaries.sections import at_phase
@@ -73,6 +73,7 @@ class CriticalShock:
         )
 
 
+@checked
 def critical_shock(
     osc: Oscillator,
     state: SteadyState | PeriodicOrbit,
@@ -153,8 +154,6 @@ def critical_shock(
 
 def _points_over_cycle(osc: Oscillator, state: SteadyState | PeriodicOrbit, n_phases: int) -> NDArray[np.float64]:
     """X and X' of a stable motion at every phase of its cycle, (period * n_phases, 2); or a ValueError."""
-    if not isinstance(state, (SteadyState, PeriodicOrbit)):
-        raise ValueError(f"state must be a SteadyState or a PeriodicOrbit, got {type(state).__name__}")
     stable = state.stable if isinstance(state, PeriodicOrbit) else state.period is not None
     if not stable or state.period is None:
         raise ValueError(f"state must be periodic and stable, got {state.motion or state}")

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gearpair._checks import check_array
 from gearpair._flow.states import CAPPED, EXHAUSTED, GONE, NOT_RUN, PERIODIC, Settled
 from gearpair.bifurcations.orbits import PeriodicOrbit
 from gearpair.ensembles.capture import known_among
 from gearpair.motion.same_orbit import lies_on
 from gearpair.motion.settling import MANY, STATUSES, SettleOptions, nothing_known, settle_batch
 from gearpair.motion.steady import SteadyState
-from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
 
 UNBOUNDED, CHAOTIC = -1, -2  # what stands for the number of a periodic attractor
@@ -87,7 +87,7 @@ class Sides:
 
 def start_of(name: str, given: ArrayLike | SteadyState | PeriodicOrbit) -> NDArray[np.float64]:
     """A start (2,) as given, or a section point of a motion; or a ValueError."""
-    point = given.points[0] if isinstance(given, (SteadyState, PeriodicOrbit)) else np.asarray(given, dtype=float)
+    point = given.points[0] if isinstance(given, (SteadyState, PeriodicOrbit)) else check_array(name, given)
     if point.shape != (2,):
         raise ValueError(f"{name} must be X and X', or a settled motion, got shape {point.shape}")
-    return np.array(check_start(*point.tolist()))
+    return point

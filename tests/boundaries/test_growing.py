@@ -176,7 +176,9 @@ def test_what_is_no_saddle_is_refused():
         gp.manifolds(stable)
     with pytest.raises(ValueError, match="must be a saddle.*did not converge"):
         gp.manifolds(gp.periodic_orbit(BASELINE, 300.0, 100.0, 7))
-    with pytest.raises(ValueError, match="orbit must be a PeriodicOrbit, of gearpair.periodic_orbit, got SteadyState"):
+    with pytest.raises(
+        TypeError, match="orbit must be a PeriodicOrbit, as gearpair.periodic_orbit gives it; got a Ste"
+    ):
         gp.manifolds(gp.steady_state(BASELINE))
-    with pytest.raises(ValueError, match="x must be two rising numbers, got 1.0 and -1.0"):
+    with pytest.raises(ValueError, match="x must be two finite numbers in rising order, got"):
         gp.manifolds(SADDLE, x=(1.0, -1.0))

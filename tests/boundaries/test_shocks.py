@@ -104,5 +104,5 @@ def test_only_a_settled_motion_of_this_oscillator_can_be_shocked():
         gp.critical_shock(chaos, STATE)
     with pytest.raises(ValueError, match="kick must be one of 'any', 'velocity', got 'both'"):
         gp.critical_shock(BASELINE, STATE, kick="both")
-    with pytest.raises(ValueError, match="state must be a SteadyState or a PeriodicOrbit, got tuple"):
+    with pytest.raises(TypeError, match="state must be a SteadyState or a PeriodicOrbit, as gearpair.steady_state"):
         gp.critical_shock(BASELINE, (0.3, 0.2))
