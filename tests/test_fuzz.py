@@ -13,7 +13,7 @@ from matplotlib import pyplot as plt
 import gearpair as gp
 from tests.support import ROOT
 
-ROOMS = ("motion", "ensembles", "bifurcations", "design", "methods", "teeth", "article", "plotting")
+ROOMS = ("motion", "ensembles", "bifurcations", "design", "methods", "teeth", "article", "plotting", "boundaries")
 OSC = gp.Oscillator()
 QUICK = {"n_transient": 20, "n_exponent": 20, "n_watch": 20}
 SPEEDS = [2000.0, 4000.0]

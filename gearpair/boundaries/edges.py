@@ -8,7 +8,7 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count
+from gearpair._checks import check_count, checked
 from gearpair._equality import equal_by_value
 from gearpair.bifurcations.orbits import PeriodicOrbit, periodic_orbit
 from gearpair.boundaries.sections import forward
@@ -74,6 +74,7 @@ class EdgeState:
         return f"between {between}, after {self.tracked} mesh periods: {found}"
 
 
+@checked
 def edge_state(
     osc: Oscillator,
     a: ArrayLike | SteadyState | PeriodicOrbit,

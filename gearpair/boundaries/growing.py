@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_count, check_number, checked
 from gearpair._equality import equal_by_value
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.newton import derivative
@@ -61,6 +61,7 @@ class Manifolds:
         return f"manifolds of the orbit of period {self.orbit.period} at X = {x:.5g}, X' = {v:.5g}: " + ", ".join(told)
 
 
+@checked
 def manifolds(
     orbit: PeriodicOrbit,
     *,

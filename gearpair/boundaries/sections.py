@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count, check_number
+from gearpair._checks import check_count, check_number, checked
 from gearpair._cores import on_all_cores
 from gearpair._flow.cells import Cells, build_cells
 from gearpair._flow.closed_form import PHASE
@@ -60,6 +60,7 @@ def backward(osc: Oscillator) -> PeriodMap:
     return PeriodMap(build_cells(reverse), -1.0)
 
 
+@checked
 def backward_map(
     osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -107,6 +108,7 @@ def backward_map(
     return ends[:, 0].reshape(xs.shape), ends[:, 1].reshape(xs.shape)
 
 
+@checked
 def at_phase(osc: Oscillator, phase: float) -> Oscillator:
     """The same gear pair with its section at another phase of the mesh: its ``tau`` begins there.
 

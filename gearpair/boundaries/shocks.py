@@ -8,7 +8,7 @@ from typing import Literal, Unpack, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_choice, check_count, check_number
+from gearpair._checks import check_choice, check_count, check_number, checked
 from gearpair._equality import equal_by_value
 from gearpair.bifurcations.orbits import PeriodicOrbit
 from gearpair.boundaries.sections import at_phase
@@ -73,6 +73,7 @@ class CriticalShock:
         )
 
 
+@checked
 def critical_shock(
     osc: Oscillator,
     state: SteadyState | PeriodicOrbit,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count
+from gearpair._checks import check_count, checked
 from gearpair._cores import on_all_cores
 from gearpair._flow.walk import OK, walk_starts
 from gearpair.ensembles.datasets import dataset
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 AT_ONCE = 64  # starts in a block
 
 
+@checked
 def chaotic_saddle(
     osc: Oscillator,
     x: ArrayLike,

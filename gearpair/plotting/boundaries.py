@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
+from gearpair._checks import checked
 from gearpair.boundaries.growing import Manifolds
 from gearpair.plotting.bifurcations import add_key
 from gearpair.plotting.style import MOTION_COLOURS, new_axes
@@ -16,6 +17,7 @@ STABLE, UNSTABLE = "#111111", "#B2182B"  # told apart from all motions', and fro
 HALO = withStroke(linewidth=2.4, foreground="white")
 
 
+@checked
 def manifolds(found: Manifolds, ax: Axes | None = None, *, legend: bool = True) -> Axes:
     """The curves on which motions approach a saddle (solid) and leave it (dashed), with its section points (diamonds).
 
@@ -60,6 +62,7 @@ def manifolds(found: Manifolds, ax: Axes | None = None, *, legend: bool = True) 
     return ax
 
 
+@checked
 def chaotic_saddle(
     result: xr.Dataset, ax: Axes | None = None, *, colour: str = MOTION_COLOURS["chaotic transient"]
 ) -> Axes:
