@@ -132,7 +132,7 @@ def test_chaos_is_named_with_its_exponent(explorer):
     assert shown(page, "multipliers") == "–"
     exponent, error = float(shown(page, "exponent")), float(shown(page, "error").removeprefix("± "))
     assert abs(exponent - truth.lyapunov_exponents[0]) < 6 * np.hypot(error, truth.exponent_error) + 0.001
-    assert "chaos" in page.evaluate(f"{part('meaning')}.textContent")
+    assert "Chaos" in page.evaluate(f"{part('meaning')}.textContent")
 
 
 def test_an_escape_is_said(explorer):
