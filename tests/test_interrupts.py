@@ -27,7 +27,7 @@ CALLS = {
     "survival": "gp.survival(osc, X, 0.0, n_periods=10**8)",
     "range_of": "gp.ensembles.range_of(gp.steady_state(osc), 'mesh_frequency', np.linspace(1.2, 1.3, 20_000))",
     "runge_kutta_sweep": "gp.methods.runge_kutta_sweep(osc, 'mesh_frequency', np.linspace(1.2, 1.3, 9999))",
-    "runge_kutta_section": "gp.methods.runge_kutta_section(osc, 1.0, 0.0, 10**5, n_kept=1)",
+    "runge_kutta_section": "gp.methods.runge_kutta_section(osc, 1.0, 0.0, 4 * 10**6, n_kept=1)",
     "lyapunov_exponents": "gp.lyapunov_exponents(osc, 1.0, 0.0, 10**10)",
     "trajectory, transient": "gp.trajectory(osc, 1.0, 0.0, 1, n_transient=10**10)",
     "trajectory": "gp.trajectory(osc, 1.0, 0.0, 10**7, samples_per_period=1)",
