@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import math
-import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from difflib import get_close_matches
@@ -16,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_array, check_class, check_count, check_fields, check_number, checked, shown
 from gearpair._flow.cells import Cells, Coefficients, build_cells
-from gearpair.quantities import ROWS
+from gearpair.quantities import ROWS, Part, part_of
 from gearpair.stiffness import Rectangle, StiffnessWave
 
 LARGEST_ORDER = 200  # of a harmonic: the cells of a period are as many times ten
@@ -155,7 +154,8 @@ class Oscillator:
         for name in changes:
             if name not in WHOLE:
                 self._check_name(name)
-        changes = self._with_parts(changes)
+        if parts := {name: part for name in changes if (part := part_of(name))}:
+            changes = self._with_parts(changes, parts)
         wave = {name: changes.pop(name) for name in WAVE_SCALARS if name in changes}
         if wave:
             if "stiffness" in changes:
@@ -169,9 +169,8 @@ class Oscillator:
         """Where among the harmonics the one of an order stands."""
         return [each.order for each in self.harmonics].index(order)
 
-    def _with_parts(self, changes: dict[str, Any]) -> dict[str, Any]:
-        """The changes with whole fields in place of their parts."""
-        parts = {name: part for name in changes if (part := part_of(name))}
+    def _with_parts(self, changes: dict[str, Any], parts: dict[str, Part]) -> dict[str, Any]:
+        """The changes with whole fields in place of their `parts`."""
         whole = {name: value for name, value in changes.items() if name not in parts}
         wave = {"edges": list(self.stiffness.edges), "levels": list(self.stiffness.levels)}
         harmonics = list(self.harmonics)
@@ -217,7 +216,7 @@ class Oscillator:
         return found
 
     def _check_name(self, name: str) -> None:
-        if name in self.parameters:
+        if name in SCALARS or name in self.parameters:
             return
         if name in WAVE_SCALARS:
             raise ValueError(
@@ -302,22 +301,3 @@ PARTS = {"StiffnessWave": StiffnessWave, "Rectangle": Rectangle, "Harmonic": Har
 WHOLE = ("stiffness", "harmonics")  # the fields that are no scalars
 SCALARS = tuple(f.name for f in fields(Oscillator) if f.name not in WHOLE)
 WAVE_SCALARS = ("contact_ratio", "a", "b")
-# A part's name, its number and, of a harmonic, what of it.
-PART = re.compile(r"(levels|edges)\[(\d+)\]|(harmonics)\[(\d+)\]\.(amplitude|phase)")
-
-
-class Part(NamedTuple):
-    """A scalar that is a part of a field."""
-
-    field: str  # levels, edges or harmonics
-    number: int  # which; of a harmonic its order
-    what: str  # amplitude or phase of a harmonic
-
-
-def part_of(name: str) -> Part | None:
-    """The part that a parameter's name stands for; None for a name of another form."""
-    found = PART.fullmatch(name)
-    if found is None:
-        return None
-    level, i, harmonic, order, what = found.groups()
-    return Part(level or harmonic, int(i or order), what or "")

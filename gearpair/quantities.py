@@ -171,12 +171,33 @@ ROWS = (
 QUANTITIES = {row.name: row for row in ROWS}
 
 
-def part(name: str) -> Quantity | None:
-    """What a part of a field is called (``"levels[0]"``, ``"harmonics[3].phase"``); None for another name."""
-    found = re.fullmatch(r"(levels|edges|harmonics)\[(\d+)\](?:\.(amplitude|phase))?", name)
+# A part's name, its number and, of a harmonic, what of it.
+PART = re.compile(r"(levels|edges)\[(\d+)\]|(harmonics)\[(\d+)\]\.(amplitude|phase)")
+
+
+class Part(NamedTuple):
+    """A scalar that is a part of a field."""
+
+    field: str  # levels, edges or harmonics
+    number: int  # which; of a harmonic its order
+    what: str  # amplitude or phase of a harmonic
+
+
+def part_of(name: str) -> Part | None:
+    """The part that a parameter's name stands for; None for a name of another form."""
+    found = PART.fullmatch(name)
     if found is None:
         return None
-    field, i, what = found.groups()
+    level, i, harmonic, order, what = found.groups()
+    return Part(level or harmonic, int(i or order), what or "")
+
+
+def part(name: str) -> Quantity | None:
+    """What a part of a field is called (``"levels[0]"``, ``"harmonics[3].phase"``); None for another name."""
+    found = part_of(name)
+    if found is None:
+        return None
+    field, i, what = found
     if field == "levels":
         return Quantity(name, "stiffness level {}", f"k_{i}", rf"k_{{{i}}}")
     if field == "edges":

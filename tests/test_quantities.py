@@ -6,8 +6,7 @@ from gearpair import Oscillator
 from gearpair.design.loads import MEASURES as LOADS
 from gearpair.design.sensitivities import OUTCOMES
 from gearpair.motion.measures import MEASURES
-from gearpair.oscillator import part_of
-from gearpair.quantities import QUANTITIES, ROWS, attributes, axis_label
+from gearpair.quantities import QUANTITIES, ROWS, attributes, axis_label, part_of
 from tests.support import ROOT
 
 PLAIN = [name for name in Oscillator().parameters if part_of(name) is None]  # parts have words of their own

@@ -10,8 +10,8 @@ from .states import Course, Orbit, Scratch
 from .walk import OK, walk
 
 # A return as close as PROMISING, relative to max(1, |X|, |X'|), is worth a Newton search for a stable orbit whose
-# neighbourhood may capture the motion: a short one, for most are in vain, and then the next return must be LESS as far.
-PROMISING, LESS, FEW_STEPS = 1e-2, 0.1, 7
+# neighbourhood may capture the motion: a short one, for most are in vain.
+PROMISING, FEW_STEPS = 1e-2, 7
 # The trace of a stable orbit is below 2 in modulus; a search is given up where it exceeds this.
 MOST_TRACE = 10.0
 # A return as close as this is as good as one in full.

@@ -7,16 +7,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count, check_number, checked
-from gearpair._cores import on_all_cores
+from gearpair._checks import check_number, checked
 from gearpair._flow.cells import Cells, build_cells
 from gearpair._flow.closed_form import PHASE
-from gearpair._flow.walk import ESCAPED, OK, walk_starts
-from gearpair.motion.trajectories import check_starts, raise_if_capped
+from gearpair._flow.walk import OK
+from gearpair.motion.trajectories import mapped, walked
 from gearpair.oscillator import Harmonic, Oscillator
 from gearpair.stiffness import StiffnessWave
-
-WALKED_AT_ONCE = 10_000  # mesh periods, between two chances to stop
 
 
 class PeriodMap(NamedTuple):
@@ -33,10 +30,7 @@ class PeriodMap(NamedTuple):
 
     def followed(self, points: NDArray[np.float64], n: int) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """The same with the status of each walk; where that is not OK, the state reached."""
-        starts = points * (1.0, self.way)
-        ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
-        block = max(1, WALKED_AT_ONCE // max(n, 1))
-        on_all_cores(walk_starts, (self.cells, starts, n, ends, status), len(starts), block)
+        ends, status = walked(self.cells, points * (1.0, self.way), n)
         return ends * (1.0, self.way), status
 
 
@@ -98,14 +92,7 @@ def backward_map(
     >>> bool(np.allclose(back, (0.3, -1.2), rtol=0.0, atol=1e-13))
     True
     """
-    xs, vs = check_starts(x, v)
-    n = check_count("n", n, at_least=0)
-    points = np.stack([xs.ravel(), vs.ravel()], axis=1)
-    ends, status = backward(osc).followed(points, n)
-    raise_if_capped(status, points)
-    gone = status == ESCAPED
-    ends[gone] = np.copysign(np.inf, ends[gone])
-    return ends[:, 0].reshape(xs.shape), ends[:, 1].reshape(xs.shape)
+    return mapped(backward(osc).followed, x, v, n)
 
 
 @checked

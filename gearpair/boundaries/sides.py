@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_array
-from gearpair._flow.states import CAPPED, EXHAUSTED, GONE, NOT_RUN, PERIODIC, Settled
+from gearpair._flow.states import CAPPED, EXHAUSTED, GONE, PERIODIC
 from gearpair.bifurcations.orbits import PeriodicOrbit
-from gearpair.ensembles.capture import known_among
+from gearpair.ensembles.capture import joined
 from gearpair.motion.same_orbit import lies_on
 from gearpair.motion.settling import MANY, STATUSES, SettleOptions, nothing_known, settle_batch
 from gearpair.motion.steady import SteadyState
@@ -41,15 +41,12 @@ class Sides:
     def numbers(self, points: NDArray[np.float64]) -> NDArray[np.int64]:
         """The attractor that each of `points` (n, 2) leads to, `UNBOUNDED` or `CHAOTIC`; shape (n,)."""
         out = settle_batch([self.osc], points, self._settings, known=self._known)
-        if np.any(out.status == NOT_RUN):
-            raise KeyboardInterrupt
         for code in (CAPPED, EXHAUSTED):
             if np.any(out.status == code):
                 raise RuntimeError(STATUSES[code].remedy)
         new = (out.status == PERIODIC) & (out.attractor < 0)
         if new.any():
-            both = Settled._make(map(np.concatenate, zip(self._known.settled, out, strict=True)))
-            self._known = known_among(self.osc, both)
+            self._known = joined(self.osc, self._known, out)
         numbers = np.where(out.status == GONE, UNBOUNDED, np.where(out.status == PERIODIC, out.attractor, CHAOTIC))
         for i in np.flatnonzero(new).tolist():
             numbers[i] = self._number(out.points[i, 0], int(out.period[i]))

@@ -72,6 +72,11 @@ def known_among(osc: Oscillator, out: Settled) -> Known:
     return Known(settled, neighbourhoods[:filled].copy(), np.empty((0, 4)))
 
 
+def joined(osc: Oscillator, known: Known, out: Settled) -> Known:
+    """The attractors known, and after them those that settled motions show besides."""
+    return known_among(osc, Settled._make(map(np.concatenate, zip(known.settled, out, strict=True))))
+
+
 class Found(NamedTuple):
     """The distinct attractors of some motions, in no order."""
 

@@ -16,12 +16,12 @@ from gearpair._flow.settle import CAPTURED
 from gearpair._flow.states import GONE, PERIODIC, Known, Settled
 from gearpair._flow.walk import ESCAPED, OK
 from gearpair._flow.watch import Watched, watch_starts
-from gearpair.ensembles.capture import known_among, numbered, scouts
+from gearpair.ensembles.capture import joined, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of, with_numbers
 from gearpair.ensembles.escape_rates import EscapeRate, Persistence, escape_rate
 from gearpair.ensembles.planes import RATES, attractor_variables
 from gearpair.motion.settling import MANY, nothing_known, settle_batch, transient_periods
-from gearpair.motion.trajectories import check_starts, raise_if_capped
+from gearpair.motion.trajectories import check_pairs, raise_if_capped
 from gearpair.oscillator import Oscillator
 from gearpair.quantities import attributes
 
@@ -99,15 +99,12 @@ def survival(
     >>> bool(result.mean_life_low < 2000.0 < result.mean_life_high), str(result.persistence.values)
     (True, 'transient')
     """
-    xs, vs = check_starts(x, v)
-    if xs.size == 0:
-        raise ValueError(f"x and v must hold one start at least, got shape {xs.shape}")
+    starts = check_pairs(x, v)
     n_periods = check_count("n_periods", n_periods)
     discard = transient_periods(osc) if discard is None else check_count("discard", discard, at_least=0)
     confidence = check_number("confidence", confidence, above=0.0, below=1.0)
     if discard >= n_periods:
         raise ValueError(f"n_periods must be more than the {discard} that are discarded, got {n_periods}")
-    starts = np.stack([xs.ravel(), vs.ravel()], axis=1)
     known, watched, later = watched_starts(osc, starts, n_periods, progress=progress)
     raise_if_capped(watched.status, starts)
     gone = (watched.owner >= 0) | (watched.status == ESCAPED)
@@ -179,7 +176,7 @@ def watched_starts(
     """
     settings = replace(MANY, n_watch=0).whole_cycles()  # the watch is this function's own
     known = nothing_known(settings)
-    known = _joined(osc, known, settle_batch([osc], starts[scouts(len(starts))], settings, known=known))
+    known = joined(osc, known, settle_batch([osc], starts[scouts(len(starts))], settings, known=known))
     n = len(starts)
     watched = Watched(np.full(n, OK), np.full(n, -1), np.zeros(n, np.int64), starts.copy())
     done, until = 0, min(FIRST_LOOK, n_periods)
@@ -188,7 +185,7 @@ def watched_starts(
         left = np.flatnonzero((watched.owner < 0) & (watched.status == OK))
         looked = left if until == n_periods else left[scouts(len(left))]
         later = settle_batch([osc], watched.points[looked], settings, known=known)
-        more = _joined(osc, known, later)
+        more = joined(osc, known, later)
         if len(more.settled.status) > len(known.settled.status):
             known, done = more, 0
             watched.points[left], watched.periods[left] = starts[left], 0
@@ -196,11 +193,6 @@ def watched_starts(
             return known, watched, later
         else:
             done, until = until, min(NEXT_LOOK * until, n_periods)
-
-
-def _joined(osc: Oscillator, known: Known, out: Settled) -> Known:
-    """The attractors known, and after them those that settled motions show besides."""
-    return known_among(osc, Settled._make(map(np.concatenate, zip(known.settled, out, strict=True))))
 
 
 def _neighbourhoods(known: Known) -> NDArray[np.float64]:

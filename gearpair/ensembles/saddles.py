@@ -8,19 +8,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count, checked
-from gearpair._cores import on_all_cores
-from gearpair._flow.walk import OK, walk_starts
+from gearpair._flow.walk import OK
 from gearpair.ensembles.datasets import dataset
 from gearpair.ensembles.lifetimes import watched_starts
 from gearpair.motion.settling import transient_periods
-from gearpair.motion.trajectories import check_starts, raise_if_capped
+from gearpair.motion.trajectories import check_pairs, raise_if_capped, walked
 from gearpair.oscillator import Oscillator
 from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
     import xarray as xr
-
-AT_ONCE = 64  # starts in a block
 
 
 @checked
@@ -83,15 +80,12 @@ def chaotic_saddle(
     >>> found.attrs["n_starts"], found.sizes["point"] > 100
     (4, True)
     """
-    xs, vs = check_starts(x, v)
-    if xs.size == 0:
-        raise ValueError(f"x and v must hold one start at least, got shape {xs.shape}")
+    starts = check_pairs(x, v)
     n_periods, n_points = check_count("n_periods", n_periods), check_count("n_points", n_points)
     n_before = check_count("n_before", n_before, at_least=0)
     n_after = transient_periods(osc) if n_after is None else check_count("n_after", n_after, at_least=0)
     if n_before + n_after > n_periods:
         raise ValueError(f"n_periods must be at least n_before + n_after = {n_before + n_after}, got {n_periods}")
-    starts = np.stack([xs.ravel(), vs.ravel()], axis=1)
     _known, watched, _later = watched_starts(osc, starts, n_periods, progress=progress)
     raise_if_capped(watched.status, starts)
     last = watched.periods - n_after  # the last mesh period of each that counts
@@ -109,24 +103,15 @@ def _points_between(
     """The section points of motions from mesh period `first` to each one's `last`, thinned out; shape (n, 2)."""
     total = int((last - first + 1).sum())
     step = max(1, -(-total // n_points))
-    ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
     found: list[NDArray[np.float64]] = []
     owners: list[NDArray[np.int64]] = []
-    here = _walked(osc, starts, first, ends, status)
+    here, _ = walked(osc.cells, starts, first)
     for done in range(first, int(last.max(initial=first - 1)) + 1, step):
         there = np.flatnonzero(last >= done)
         found.append(here[there])
         owners.append(there)
-        here = _walked(osc, here, step, ends, status)
+        here, _ = walked(osc.cells, here, step)
     if not found:
         return np.empty((0, 2))
     order = np.argsort(np.concatenate(owners), kind="stable")
     return np.concatenate(found)[order]
-
-
-def _walked(
-    osc: Oscillator, points: NDArray[np.float64], n: int, ends: NDArray[np.float64], status: NDArray[np.int64]
-) -> NDArray[np.float64]:
-    """The states `n` mesh periods on, those of motions that escaped too."""
-    on_all_cores(walk_starts, (osc.cells, points.copy(), n, ends, status), len(points), AT_ONCE)
-    return ends.copy()

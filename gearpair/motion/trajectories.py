@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair._checks import check_array, check_count, checked
 from gearpair._cores import SHORT, aside, on_all_cores
 from gearpair._equality import equal_by_value
+from gearpair._flow.cells import Cells
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.observe import record
 from gearpair._flow.walk import (
@@ -103,6 +106,14 @@ def check_starts(x: ArrayLike, v: ArrayLike) -> tuple[NDArray[np.float64], NDArr
     return xs, vs
 
 
+def check_pairs(x: ArrayLike, v: ArrayLike) -> NDArray[np.float64]:
+    """Starts, one at least, as rows (n, 2), or a ValueError that says what is wrong with them."""
+    xs, vs = check_starts(x, v)
+    if xs.size == 0:
+        raise ValueError(f"x and v must hold one start at least, got shape {xs.shape}")
+    return np.stack([xs.ravel(), vs.ravel()], axis=1)
+
+
 def check_start(x: ArrayLike, v: ArrayLike) -> tuple[float, float]:
     """One start as two floats, or a ValueError that says what is wrong with it."""
     xs, vs = check_starts(x, v)
@@ -147,16 +158,31 @@ def stroboscopic_map(
     >>> bool(abs(x[0] - x[1]) < 1e-12)
     True
     """
+    return mapped(partial(walked, osc.cells), x, v, n)
+
+
+def mapped(
+    walk: Callable[[NDArray[np.float64], int], tuple[NDArray[np.float64], NDArray[np.int64]]],
+    x: ArrayLike,
+    v: ArrayLike,
+    n: int,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """X and X' after `n` mesh periods of a `walk` such as `walked`, in the shape of the starts."""
     xs, vs = check_starts(x, v)
-    n = check_count("n", n, at_least=0)
     starts = np.stack([xs.ravel(), vs.ravel()], axis=1)
-    ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
-    block = max(1, PERIODS_AT_ONCE // max(n, 1))
-    on_all_cores(walk_starts, (osc.cells, starts, n, ends, status), len(starts), block, longest=n)
+    ends, status = walk(starts, check_count("n", n, at_least=0))
     raise_if_capped(status, starts)
     gone = status == ESCAPED
     ends[gone] = np.copysign(np.inf, ends[gone])
     return ends[:, 0].reshape(xs.shape), ends[:, 1].reshape(xs.shape)
+
+
+def walked(cells: Cells, starts: NDArray[np.float64], n: int) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """The states `n` mesh periods from `starts` (m, 2) on, over all cores, and the status of each walk."""
+    ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
+    block = max(1, PERIODS_AT_ONCE // max(n, 1))
+    on_all_cores(walk_starts, (cells, starts, n, ends, status), len(starts), block, longest=n)
+    return ends, status
 
 
 @checked
