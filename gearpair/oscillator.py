@@ -49,6 +49,9 @@ class Oscillator:
         phi_h, the phase of the transmission error at the start of a mesh period, in radians.
     damping_ratio : float
         zeta, from 0 to 100.
+    flight_damping : float, optional
+        zeta in free flight, ``|X| < 1``, from 0 to 100. When not given, it is that in contact, `damping_ratio`; 0 is
+        damping in contact only.
     mesh_frequency : float
         Omega_h, above 0 and at most 1e6; the mesh period is ``T = 2 pi / Omega_h``, and not longer than a
         million times the fastest time scale of contact.
@@ -76,6 +79,7 @@ class Oscillator:
     error_amplitude: float = 0.2
     error_phase: float = 0.0
     damping_ratio: float = 0.02
+    flight_damping: float | None = None
     mesh_frequency: float = 0.7
     stiffness: StiffnessWave = field(default_factory=StiffnessWave.rectangular)
     harmonics: tuple[Harmonic, ...] = ()
@@ -87,13 +91,14 @@ class Oscillator:
             error_amplitude={"at_least": 0.0},
             error_phase={},
             damping_ratio={"at_least": 0.0, "at_most": LARGEST_DAMPING_RATIO},
+            flight_damping={"at_least": 0.0, "at_most": LARGEST_DAMPING_RATIO},
             mesh_frequency={"above": 0.0},
         )
         if not isinstance(self.stiffness, StiffnessWave):
             raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
         object.__setattr__(self, "harmonics", check_harmonics("harmonics", self.harmonics))
         check_number("mesh_frequency", self.mesh_frequency, at_most=LARGEST_MESH_FREQUENCY)
-        rate = max(2.0 * self.damping_ratio, math.sqrt(max(self.stiffness.levels)))
+        rate = max(2.0 * self.damping_ratio, 2.0 * (self.flight_damping or 0.0), math.sqrt(max(self.stiffness.levels)))
         slowest = 2.0 * math.pi * rate / MOST_TURNS
         if self.mesh_frequency < slowest:
             raise ValueError(
@@ -105,6 +110,11 @@ class Oscillator:
     def period(self) -> float:
         """The mesh period T = 2 pi / Omega_h (dimensionless time)."""
         return 2.0 * np.pi / self.mesh_frequency
+
+    @property
+    def damping_in_flight(self) -> float:
+        """The damping ratio in free flight: `flight_damping`, or `damping_ratio` where that is None."""
+        return self.damping_ratio if self.flight_damping is None else self.flight_damping
 
     @property
     def all_harmonics(self) -> tuple[Harmonic, ...]:
@@ -121,7 +131,7 @@ class Oscillator:
 
         Examples
         --------
-        >>> Oscillator(harmonics=[(3, 0.05, 0.0)]).parameters[8:]
+        >>> Oscillator(harmonics=[(3, 0.05, 0.0)]).parameters[9:]
         ('levels[0]', 'levels[1]', 'edges[1]', 'harmonics[3].amplitude', 'harmonics[3].phase')
         """
         levels = range(len(self.stiffness.levels))
@@ -133,12 +143,14 @@ class Oscillator:
 
     @checked
     def parameter(self, name: str) -> float:
-        """The present value of one of `parameters`."""
+        """The present value of one of `parameters`; of a `flight_damping` that is not given, that in contact."""
         self._check_name(name)
         if part := part_of(name):
             if part.field == "harmonics":
                 return float(getattr(self.harmonics[self._place(part.number)], part.what))
             return float(getattr(self.stiffness, part.field)[part.number])
+        if name == "flight_damping":
+            return self.damping_in_flight
         return float(getattr(self.stiffness.rectangle if name in WAVE_SCALARS else self, name))
 
     def replace(self, **changes: Any) -> Self:
@@ -257,6 +269,7 @@ class Oscillator:
             self.error_amplitude,
             self.error_phase,
             self.damping_ratio,
+            self.damping_in_flight,
             self.mesh_frequency,
             np.array([*self.stiffness.edges, 1.0]),
             np.array(self.stiffness.levels),

@@ -56,6 +56,7 @@ ROWS = (
         axis="phase of the transmission error {}",
     ),
     Quantity("damping_ratio", "damping ratio {}", "zeta", r"\zeta"),
+    Quantity("flight_damping", "damping ratio {} in free flight", "zeta_f", r"\zeta_f"),
     Quantity("mesh_frequency", "mesh frequency {}", "Omega_h", r"\Omega_h"),
     Quantity("contact_ratio", "contact ratio {}", "epsilon", r"\varepsilon"),
     Quantity("a", "stiffness added in double contact, {}", "a", axis="{}"),

@@ -14,6 +14,11 @@ and the section points of the cycle have norms Q_0, Q_1, ... in which S contract
 equation). A radius r whose bound comes back smaller over the whole cycle does so for every smaller radius, as
 the right side grows faster than W: all that starts within r converges to the cycle. For the same reason a motion that
 starts within s r, s <= 1, is for ever within s times the most that ``|d| <= alpha W`` allows from r on: the spread.
+
+With another damping ratio in free flight it is X' + 2 zeta X that has no jump (`tangent`), and d its difference in
+that. Damping adds a term to the rate of d as the force does: (2 (zeta - zeta_f), k - 4 zeta* (zeta - zeta_f))', zeta*
+being the cycle's at the time, takes the place of (0, k)' in k beta. On the section d is what the motions differ by in
+X' but for 2 (zeta - zeta_f) (|d| - D)_+ at most, which `shear` adds.
 """
 
 from typing import NamedTuple
@@ -23,7 +28,7 @@ import numpy as np
 from ._kernel import Array, Integers, allocating_kernel, kernel
 from .cells import Cells
 from .closed_form import TERMS
-from .growth import Growth
+from .growth import Growth, gains
 from .newton import derivative
 from .tangent import apply, set_identity
 from .walk import OK, Details, walk
@@ -121,14 +126,27 @@ def grow_around(
     for i in range(len(factors)):
         set_identity(flow)
         bounds[i + 1] = bounds[i]
+        shear(cells, rows[i, X], forms[i], flow, bounds[i + 1])
         growth = Growth(flow, before, forms[i], parts, limits, bounds[i + 1], spread)
         details = Details(None, None, None, None, growth)
         status, _x, _v = walk(cells, rows[i, X], rows[i, V], 1, series, None, None, details)
         if status != OK:
             return False
         bounds[i + 1] *= factors[i]
+        set_identity(flow)
+        shear(cells, rows[(i + 1) % len(factors), X], forms[i + 1], flow, bounds[i + 1])
         limits *= factors[i]
     return True
+
+
+@kernel
+def shear(cells: Cells, x: float, form: Array, identity: Array, bounds: Array) -> None:
+    """Widen `bounds` at the section point `x` of a cycle by what damping in contact and in flight makes of X'."""
+    step = 2.0 * abs(cells.damping_ratio - cells.flight_damping)
+    if step > 0.0:
+        gain = gains(identity, form)
+        for k in range(len(bounds)):
+            bounds[k] += step * gain.beta * max(gain.alpha * bounds[k] - abs(abs(x) - 1.0), 0.0)
 
 
 @kernel

@@ -47,7 +47,8 @@ class Coefficients(NamedTuple):
     mean_force: float
     error_amplitude: float
     error_phase: float
-    damping_ratio: float
+    damping_ratio: float  # in contact
+    flight_damping: float  # the damping ratio in free flight
     mesh_frequency: float
     edges: Array  # (n_levels + 1,), from 0 to 1
     levels: Array  # (n_levels,)
@@ -74,15 +75,16 @@ class Cells(NamedTuple):
     block_maps: Array  # (n_blocks, 3, COLUMNS)
     period: float
     damping_ratio: float
+    flight_damping: float
     escape_radius: float  # |X| + |X'| from which no motion comes back
 
 
 @kernel
 def count_blocks(p: Coefficients, level: int) -> int:
     """How many blocks one stiffness level needs: cells, if the forcing has one harmonic."""
-    damping_ratio = abs(p.damping_ratio)  # negative where time runs backward
-    rate = fastest_rate(p.levels[level], damping_ratio, p.mesh_frequency)
-    rate = max(rate, 2.0 * damping_ratio)
+    # Damping is negative where time runs backward.
+    rate = fastest_rate(p.levels[level], abs(p.damping_ratio), p.mesh_frequency)
+    rate = max(rate, 2.0 * abs(p.flight_damping))
     span = (p.edges[level + 1] - p.edges[level]) * 2.0 * np.pi / p.mesh_frequency
     return max(1, int(np.ceil(span * rate / REACH)))
 
@@ -108,7 +110,7 @@ def build_cells(p: Coefficients) -> Cells:
         per_block = n // count_blocks(p, i)
         span = (p.edges[i + 1] - p.edges[i]) / n
         width = span * cells.period
-        fill_basis(0.0, p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 0])
+        fill_basis(0.0, p.flight_damping, p.mesh_frequency, width, cells.bases[i, 0])
         fill_basis(p.levels[i], p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 1])
         for contact in range(2):
             fill_ends(cells.bases[i, contact], width, ends[contact])
@@ -156,6 +158,7 @@ def empty_cells(p: Coefficients) -> Cells:
         np.empty((n_blocks, 3, COLUMNS)),
         2.0 * np.pi / p.mesh_frequency,
         p.damping_ratio,
+        p.flight_damping,
         ESCAPE_RADIUS if contact_growth(p) > 1.0 else np.inf,
     )
 
@@ -172,7 +175,8 @@ def fill_cell(p: Coefficients, cells: Cells, j: int, level: int, start: float, w
     if p.harmonics.shape[0] > 0:
         for contact in range(2):
             kappa, row = p.levels[level] * contact, cells.forced[j, contact]
-            fill_forced(kappa, p.damping_ratio, p.mesh_frequency, width, start, p.harmonics, row)
+            zeta = p.damping_ratio if contact == 1 else p.flight_damping
+            fill_forced(kappa, zeta, p.mesh_frequency, width, start, p.harmonics, row)
             cells.forced_fourths[j, contact] = fourth_derivative_bound(row, 1.0)
     for region in range(3):
         fill_map(cells, j, region, ends[abs(region - 1)])

@@ -5,7 +5,7 @@ Between two events the equation is linear with constant coefficients,
     X'' + 2 zeta X' + kappa (X - s) = F_m + A sin(theta + Omega h),    A = F_ah Omega^2,
 
 with (kappa, s) = (k, 1) in drive-side contact, (k, -1) in coast-side contact and (0, 0) in free
-flight. Its solution is an entire function of the elapsed time h, linear in the five numbers
+flight, where zeta may be another. Its solution is an entire function of the elapsed time h, linear in the five numbers
 (X - s, X', F_m, A sin theta, A cos theta) at h = 0; what higher harmonics of the forcing add does not depend on
 the state and is one more power series a cell. On a *cell*, a piece of the mesh period of width w
 over which no rate of the system turns by more than `REACH`, its power series in t = h / w has converged

@@ -5,7 +5,7 @@ import numpy as np
 from ._kernel import Array, allocating_kernel, kernel
 from .cells import Cells
 from .newton import derivative
-from .observe import measure
+from .observe import mean_damping, measure
 from .reach import HIGHEST, LOWEST, begin_reach
 from .stable_orbits import smallest_point, spectral_radius
 from .states import PERIODIC, Course, Orbit, Scratch, Settled
@@ -13,9 +13,9 @@ from .walk import walk
 
 
 @kernel
-def fill_exponents(cells: Cells, largest: float, error: float, row: Array) -> None:
-    """Both exponents, whose sum is -2 zeta (Liouville), and the standard error."""
-    row[0], row[1], row[2] = largest, -2.0 * cells.damping_ratio - largest, error
+def fill_exponents(largest: float, damping: float, error: float, row: Array) -> None:
+    """Both exponents, whose sum is that of Liouville's formula for a mean `damping`, and the standard error."""
+    row[0], row[1], row[2] = largest, -2.0 * damping - largest, error
 
 
 @allocating_kernel
@@ -24,7 +24,8 @@ def describe_orbit(cells: Cells, orbit: Orbit, work: Scratch, out: Settled, i: i
     period, m = orbit.period, out.monodromy[i]
     out.status[i], out.period[i] = PERIODIC, period
     derivative(cells, orbit.x, orbit.v, period, m, work.series)
-    fill_exponents(cells, np.log(spectral_radius(m)) / (period * cells.period), 0.0, out.exponents[i])
+    damping = mean_damping(cells, orbit.x, orbit.v, period, work.series, work.measures)
+    fill_exponents(np.log(spectral_radius(m)) / (period * cells.period), damping, 0.0, out.exponents[i])
     x, v = smallest_point(cells, orbit.x, orbit.v, period, work.series)
     begin_reach(work.reach, x)
     walk(cells, x, v, period, work.series, None, work.reach)
@@ -35,7 +36,7 @@ def describe_orbit(cells: Cells, orbit: Orbit, work: Scratch, out: Settled, i: i
 @kernel
 def describe_floating(cells: Cells, course: Course, work: Scratch, out: Settled, i: int) -> None:
     """Fill row `i` of `out` with what a motion is that floats: neutral to a shift of X, damped otherwise."""
-    fill_exponents(cells, 0.0, 0.0, out.exponents[i])
+    fill_exponents(0.0, cells.flight_damping, 0.0, out.exponents[i])
     begin_reach(work.reach, course.x)
     walk(cells, course.x, course.v, 1, work.series, None, work.reach)
     out.extremes[i, 0], out.extremes[i, 1] = work.reach[LOWEST], work.reach[HIGHEST]

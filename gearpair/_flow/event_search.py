@@ -52,8 +52,11 @@ def longest_step(d: float, u: float, a: float, j: float, fourth: float, end: flo
 
 
 @kernel
-def region_at(x: float, v: float, acceleration: float, force_rate: float) -> int:
-    """The region that the motion enters from (x, v): on a boundary the first non-zero derivative decides."""
+def region_at(x: float, v: float, force: float, force_rate: float) -> int:
+    """The region that the motion enters from (x, v): on a boundary the first non-zero derivative decides.
+
+    At rest there no damping and no spring acts: X'' is the force, and where that is zero X''' its rate.
+    """
     if x > 1.0:
         return 1
     if x < -1.0:
@@ -62,7 +65,7 @@ def region_at(x: float, v: float, acceleration: float, force_rate: float) -> int
         return 0
     way = v
     if way == 0.0:
-        way = acceleration
+        way = force
     if way == 0.0:
         way = force_rate
     if x == 1.0:

@@ -8,7 +8,8 @@ from ._kernel import Array, kernel
 from .cells import WIDTH, Cells
 from .closed_form import TERMS, evaluate
 from .measures import contact_stiffness
-from .segment import Segment
+from .segment import Segment, damping_in
+from .tangent import cross
 
 
 class Growth(NamedTuple):
@@ -39,6 +40,7 @@ def grow(growth: Growth | None, cells: Cells, segment: Segment) -> None:
         while first < len(bounds) and bounds[first] > limits[first]:
             bounds[first] = np.inf
             first += 1
+    cross(growth.flow, cells, segment)
 
 
 @kernel
@@ -49,7 +51,8 @@ def grow_in_parts(growth: Growth, cells: Cells, segment: Segment, parts: int, fi
     """
     width, basis = cells.clock[segment.cell, WIDTH], cells.bases[cells.level[segment.cell], abs(segment.region)]
     stiffness = contact_stiffness(cells, segment.cell)
-    zeta, own = cells.damping_ratio, stiffness * abs(segment.region)
+    zeta, own = damping_in(cells, segment.region), stiffness * abs(segment.region)
+    step = 2.0 * (cells.damping_ratio - cells.flight_damping)
     gap, bend, gain = 0.0, 0.0, Gains(0.0, 0.0, 0.0, 0.0)
     before, jerk = 0.0, jerk_bound(segment.series, width)
     for part in range(parts + 1):
@@ -66,7 +69,11 @@ def grow_in_parts(growth: Growth, cells: Cells, segment: Segment, parts: int, fi
             sag = slack * (max(bend, bend1) + h * jerk)
             alpha, beta = max(gain.alpha, gain1.alpha), max(gain.beta, gain1.beta)
             a = alpha + slack * (own * alpha + 2.0 * zeta * max(gain.alpha_v, gain1.alpha_v))
-            b = beta + slack * (2.0 * zeta * max(gain.beta_x, gain1.beta_x) + abs(4.0 * zeta * zeta - own) * beta)
+            beta_x = max(gain.beta_x, gain1.beta_x)
+            b = beta + slack * (2.0 * zeta * beta_x + abs(4.0 * zeta * zeta - own) * beta)
+            rate = h * b * abs(stiffness - 2.0 * zeta * step)
+            if step != 0.0:  # the damping's part
+                rate += h * abs(step) * (beta_x + slack * own * (beta_x + 2.0 * zeta * beta))
             for k in range(first, len(growth.bounds)):
                 reach = a * growth.bounds[k]
                 if reach <= min(gap, gap1) - sag:
@@ -74,7 +81,6 @@ def grow_in_parts(growth: Growth, cells: Cells, segment: Segment, parts: int, fi
                 if parts == 1:
                     return True
                 excess = ramp(reach, gap - sag, gap1 - sag) - ramp(0.0, gap - sag, gap1 - sag)
-                rate = h * b * stiffness
                 grown = growth.bounds[k] + rate * excess / (1.0 - rate * a) if rate * a < 1.0 else np.inf
                 growth.bounds[k] = grown
             widen_spread(growth.spread, a * growth.bounds[0])

@@ -5,7 +5,7 @@ import numpy as np
 from ._kernel import Array, Integers, allocating_kernel, kernel
 from .cells import Cells
 from .closed_form import TERMS
-from .measures import HIGHEST, LOWEST, Measures, finish_measures
+from .measures import HIGHEST, LOWEST, SHARE, Measures, finish_measures
 from .reach import begin_reach
 from .records import Samples
 from .tangent import set_identity
@@ -27,6 +27,16 @@ def measure(cells: Cells, x: float, v: float, n_periods: int, series: Array, row
     if status == OK:
         finish_measures(measures, cells, n_periods)
     return status
+
+
+@kernel
+def mean_damping(cells: Cells, x: float, v: float, n_periods: int, series: Array, row: Array) -> float:
+    """The mean damping ratio over `n_periods`: minus half the sum of the exponents (Liouville). `row` is scratch."""
+    if cells.flight_damping == cells.damping_ratio:
+        return cells.damping_ratio
+    measure(cells, x, v, n_periods, series, row)
+    contact = row[SHARE] + row[SHARE + 1]
+    return contact * cells.damping_ratio + (1.0 - contact) * cells.flight_damping
 
 
 @allocating_kernel
@@ -61,7 +71,7 @@ def exponents(
 ) -> tuple[int, float, float, float, float]:
     """The largest Lyapunov exponent: (status, x, v, exponent per unit tau, standard error).
 
-    The other follows from Liouville's formula, the sum being -2 zeta; from the matrices it would lose all digits where
+    The other follows from Liouville's formula, by `mean_damping`; from the matrices it would lose all digits where
     damping is strong. `n_turn` periods come first, uncounted, to turn the direction into the most unstable one. The
     error is that of the mean over `blocks` equal parts of the span. `reach` (4,) is that of the whole way.
     """

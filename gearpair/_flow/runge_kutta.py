@@ -56,13 +56,19 @@ def deflection(x: float) -> float:
 
 
 @kernel
+def damping_at(p: Coefficients, x: float) -> float:
+    """The damping ratio of oscillator `p` at X."""
+    return p.flight_damping if -1.0 <= x <= 1.0 else p.damping_ratio
+
+
+@kernel
 def acceleration(p: Coefficients, tau: float, x: float, v: float) -> float:
     """X'' of oscillator `p` at (tau, x, v)."""
     force = p.mean_force + p.error_amplitude * p.mesh_frequency**2 * np.sin(p.mesh_frequency * tau + p.error_phase)
     for h in p.harmonics:
         rate = h[ORDER] * p.mesh_frequency
         force += h[AMPLITUDE] * rate * rate * np.sin(rate * tau + h[PHASE])
-    force -= 2.0 * p.damping_ratio * v
+    force -= 2.0 * damping_at(p, x) * v
     gap = deflection(x)
     if gap == 0.0:
         return force
@@ -222,13 +228,13 @@ def integrate_fixed(p: Coefficients, x: float, v: float, n_periods: int, n_steps
             return ESCAPED
         for i in range(n_steps):
             j0, j1, j2 = 2 * i, 2 * i + 1, (2 * i + 2) % (2 * n_steps)
-            a1 = forces[j0] - 2.0 * p.damping_ratio * v - levels[j0] * deflection(x)
+            a1 = forces[j0] - 2.0 * damping_at(p, x) * v - levels[j0] * deflection(x)
             x2, v2 = x + 0.5 * h * v, v + 0.5 * h * a1
-            a2 = forces[j1] - 2.0 * p.damping_ratio * v2 - levels[j1] * deflection(x2)
+            a2 = forces[j1] - 2.0 * damping_at(p, x2) * v2 - levels[j1] * deflection(x2)
             x3, v3 = x + 0.5 * h * v2, v + 0.5 * h * a2
-            a3 = forces[j1] - 2.0 * p.damping_ratio * v3 - levels[j1] * deflection(x3)
+            a3 = forces[j1] - 2.0 * damping_at(p, x3) * v3 - levels[j1] * deflection(x3)
             x4, v4 = x + h * v3, v + h * a3
-            a4 = forces[j2] - 2.0 * p.damping_ratio * v4 - levels[j2] * deflection(x4)
+            a4 = forces[j2] - 2.0 * damping_at(p, x4) * v4 - levels[j2] * deflection(x4)
             x += h * (v + 2.0 * v2 + 2.0 * v3 + v4) / 6.0
             v += h * (a1 + 2.0 * a2 + 2.0 * a3 + a4) / 6.0
     return COMPLETE

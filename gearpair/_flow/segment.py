@@ -30,7 +30,7 @@ class Segment(NamedTuple):
 @kernel
 def first_region(cells: Cells, x: float, v: float) -> int:
     """The region that the motion enters from (x, v) at the start of a mesh period."""
-    return region_at(x, v, cells.start_force - 2.0 * cells.damping_ratio * v, cells.start_rate)
+    return region_at(x, v, cells.start_force, cells.start_rate)
 
 
 @kernel
@@ -39,6 +39,12 @@ def region_after(region: int, x: float) -> int:
     if region == 0:
         return 1 if x > 0.0 else -1
     return 0
+
+
+@kernel
+def damping_in(cells: Cells, region: int) -> float:
+    """The damping ratio in a region."""
+    return cells.flight_damping if region == 0 else cells.damping_ratio
 
 
 @inlined_kernel

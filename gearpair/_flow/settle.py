@@ -30,7 +30,7 @@ from .capture import OWNER, inside
 from .cells import Cells, build_cells
 from .describe import copy_row, describe_floating, describe_orbit, describe_span, fill_exponents
 from .newton import distance
-from .observe import exponents
+from .observe import exponents, mean_damping
 from .reach import HIGHEST, LOWEST, begin_reach
 from .stable_orbits import PROMISING, RETURNED, approached, attempt, beside
 from .states import (
@@ -104,7 +104,7 @@ def follow(
 @kernel
 def floats(cells: Cells, x: float, v: float, work: Scratch) -> bool:
     """Whether a motion repeats within the backlash, as only without a mean force: one of a family, shifted at will."""
-    if cells.damping_ratio == 0.0:
+    if cells.flight_damping == 0.0:  # a drift would not die
         return False
     begin_reach(work.reach, x)
     status, x1, v1 = walk(cells, x, v, 1, work.series, None, work.reach)
@@ -127,7 +127,8 @@ def observe(cells: Cells, course: Course, n_exponent: int, work: Scratch, out: S
         cells, course.x, course.v, per_block, n_exponent, EXPONENT_BLOCKS, work.reach
     )
     work.way[0] += observed_periods(n_exponent)
-    fill_exponents(cells, largest, error, out.exponents[i])
+    damping = mean_damping(cells, course.x, course.v, observed_periods(n_exponent), work.series, work.measures)
+    fill_exponents(largest, damping, error, out.exponents[i])
     out.extremes[i, 0], out.extremes[i, 1] = work.reach[LOWEST], work.reach[HIGHEST]
     out.chaos[i, 0], out.chaos[i, 1], out.chaos[i, 2] = work.reach[LOWEST], work.reach[HIGHEST], largest
     return Course(status, x, v, -1, course.orbit)
@@ -170,7 +171,7 @@ def judge(cells: Cells, course: Course, limits: Limits, work: Scratch, out: Sett
     if lasts(work.known.lasting, out.chaos[i]):
         out.status[i] = APERIODIC
         return course
-    n_watch = limits.n_watch if cells.damping_ratio > 0.0 else 0
+    n_watch = limits.n_watch if max(cells.damping_ratio, cells.flight_damping) > 0.0 else 0
     left = max(0, min(n_watch, limits.most - int(work.way[0])))
     course = follow(cells, course.x, course.v, left, limits.max_period, work, None)
     if not undecided(course):
@@ -183,7 +184,8 @@ def judge(cells: Cells, course: Course, limits: Limits, work: Scratch, out: Sett
         return late
     if n_watch > limits.n_exponent and not resolved(out.exponents[i]):
         _status, _x, _v, largest, error = exponents(cells, course.x, course.v, 1, n_watch, EXPONENT_BLOCKS, work.reach)
-        fill_exponents(cells, largest, error, out.exponents[i])
+        damping = mean_damping(cells, course.x, course.v, n_watch, work.series, work.measures)
+        fill_exponents(largest, damping, error, out.exponents[i])
     out.status[i] = APERIODIC if resolved(out.exponents[i]) else UNSETTLED
     return course
 

@@ -8,6 +8,7 @@ from ._kernel import Array, Integers, allocating_kernel, kernel
 from .capture import COLUMNS
 from .cells import Coefficients
 from .closed_form import TERMS
+from .measures import N_MEASURES
 from .walk import OK
 
 PERIODIC, APERIODIC, UNSETTLED, GONE, CAPPED, EXHAUSTED, TRANSIENT, FLOATING = 0, 1, 2, 3, 4, 5, 6, 7
@@ -26,7 +27,7 @@ class Limits(NamedTuple):
 class Lanes(NamedTuple):
     """A batch of motions, one lane each, of some oscillators."""
 
-    scalars: Array  # (m, 5): mean force, error amplitude, error phase, damping ratio, mesh frequency
+    scalars: Array  # (m, 6): mean force, error amplitude, error phase, damping ratio, that in flight, mesh frequency
     edges: Array  # (m, n_levels + 1)
     levels: Array  # (m, n_levels)
     harmonics: Array  # (m, n_harmonics, 3)
@@ -69,6 +70,7 @@ class Scratch(NamedTuple):
     reach: Array  # (4,)
     way: Array  # (4,) the whole way of a motion, as in `Settled`
     series: Array  # (TERMS,)
+    measures: Array  # (N_MEASURES,)
 
 
 class Orbit(NamedTuple):
@@ -94,7 +96,7 @@ class Course(NamedTuple):
 def coefficients_of(lanes: Lanes, i: int) -> Coefficients:
     """Oscillator `i` of a batch."""
     s = lanes.scalars[i]
-    return Coefficients(s[0], s[1], s[2], s[3], s[4], lanes.edges[i], lanes.levels[i], lanes.harmonics[i])
+    return Coefficients(s[0], s[1], s[2], s[3], s[4], s[5], lanes.edges[i], lanes.levels[i], lanes.harmonics[i])
 
 
 @allocating_kernel
@@ -103,7 +105,9 @@ def make_scratch(known: Known, max_period: int) -> Scratch:
     n = len(known.neighbourhoods)
     neighbourhoods = np.empty((n + max_period, COLUMNS))
     neighbourhoods[:n] = known.neighbourhoods
-    return Scratch(known, neighbourhoods, np.empty((2, 2)), np.empty(4), np.empty(4), np.empty(TERMS))
+    return Scratch(
+        known, neighbourhoods, np.empty((2, 2)), np.empty(4), np.empty(4), np.empty(TERMS), np.empty(N_MEASURES)
+    )
 
 
 @kernel

@@ -1,7 +1,12 @@
 """The variational flow along a walk: the matrix of its linear pieces, multiplied up.
 
-The force is continuous at X = +-1 and the stiffness switches at fixed times, so the variational flow
-has no jump: its matrix is the product of the linear pieces' own, and its determinant is exp(-2 zeta n T).
+The stiffness switches at fixed times, and the spring's force is continuous at X = +-1. So with one damping ratio the
+variational flow has no jump: its matrix is the product of the linear pieces' own.
+
+With another in free flight X'' jumps at a crossing, by 2 (zeta - zeta') X' from zeta to zeta'. The quotient by X' is
+what the tangent jumps by (`cross`), bounded at a grazing: X' + 2 zeta X has no jump. The determinant of that is 1, so
+that of the whole is exp(-2 zeta (time in contact) - 2 zeta_f (time in flight)), and exp(-2 zeta n T) with one damping.
+
 Where no matrix is asked for it is None, and these kernels do nothing.
 """
 
@@ -42,3 +47,12 @@ def apply_segment(m: Array | None, cells: Cells, segment: Segment) -> None:
     xx, vx, _ = evaluate(basis[0], segment.duration)
     xv, vv, _ = evaluate(basis[1], segment.duration)
     apply(xx, xv, vx / width, vv / width, m)
+    cross(m, cells, segment)
+
+
+@inlined_kernel
+def cross(m: Array, cells: Cells, segment: Segment) -> None:
+    """Multiply `m` by the jump (saltation) matrix of the crossing that a segment ends with, if it does."""
+    if segment.left and cells.flight_damping != cells.damping_ratio:
+        loss = 2.0 * (cells.flight_damping - cells.damping_ratio)
+        apply(1.0, 0.0, loss if segment.region == 0 else -loss, 1.0, m)

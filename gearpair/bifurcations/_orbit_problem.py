@@ -105,7 +105,10 @@ class OrbitProblem:
     def coefficients(self, u: Vector) -> Coefficients:
         """The kernels' coefficients at `u`."""
         if set(self.names) <= set(SCALARS):  # the quick way, free to step a little out of range
-            return self.osc.coefficients._replace(**self._changes(u))
+            changes = self._changes(u)
+            if self.osc.flight_damping is None and "damping_ratio" in changes:  # it is the one in contact
+                changes.setdefault("flight_damping", changes["damping_ratio"])
+            return self.osc.coefficients._replace(**changes)
         return self.oscillator(u).coefficients
 
     def equations(self, u: Vector) -> tuple[Vector, NDArray[np.float64]] | None:

@@ -52,8 +52,10 @@ class PeriodicOrbit:
     residual : float
         Largest component of map(point) - point; inf where the motion could not be followed.
     monodromy : ndarray of float, shape (2, 2), or None
-        The derivative of the period map at ``points[0]``; its determinant is ``exp(-2 zeta period T)``. This and
-        what follows is None where diverged: what is no orbit has no stability.
+        The derivative of the period map at ``points[0]``; its determinant is ``exp(-2 zeta period T)``, zeta the mean
+        over time where free flight has another. Only of an orbit that meets no damping on its way can complex
+        multipliers reach the unit circle: there is no other Neimark-Sacker bifurcation. This and what follows is None
+        where diverged: what is no orbit has no stability.
     multipliers : ndarray of complex, shape (2,), or None
         Floquet multipliers, the largest modulus first.
     x_min, x_max : float or None

@@ -47,6 +47,7 @@ def backward(osc: Oscillator) -> PeriodMap:
     reverse = p._replace(
         error_phase=np.pi - p.error_phase,
         damping_ratio=-p.damping_ratio,
+        flight_damping=-p.flight_damping,
         edges=np.ascontiguousarray(1.0 - p.edges[::-1]),
         levels=np.ascontiguousarray(p.levels[::-1]),
         harmonics=harmonics,
@@ -82,7 +83,8 @@ def backward_map(
     -----
     ``Y(tau) = X(-tau)`` obeys the same equation with zeta negative, the stiffness wave turned round and each phase phi
     of the transmission error replaced by pi - phi. So the exact flow takes it, with the same certified events, and the
-    map backward is exact to rounding, which grows as much as neighbours part: areas by ``exp(2 zeta T)`` a period.
+    map backward is exact to rounding, which grows as much as neighbours part: areas by ``exp(2 zeta T)`` a period. So
+    with another zeta in free flight, which then is negative too; for areas, the mean over time counts.
 
     Examples
     --------
@@ -123,6 +125,7 @@ def at_phase(osc: Oscillator, phase: float) -> Oscillator:
         error_amplitude=osc.error_amplitude,
         error_phase=osc.error_phase + angle,
         damping_ratio=osc.damping_ratio,
+        flight_damping=osc.flight_damping,
         mesh_frequency=osc.mesh_frequency,
         stiffness=StiffnessWave(tuple(e for e, _ in pieces), tuple(level for _, level in pieces)),
         harmonics=tuple(Harmonic(h.order, h.amplitude, h.phase + h.order * angle) for h in osc.harmonics),

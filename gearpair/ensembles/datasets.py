@@ -12,7 +12,7 @@ from gearpair._checks import check_array
 from gearpair._flow.states import PERIODIC, Settled
 from gearpair.motion.impacts import IMPACT_STATES, impact_codes
 from gearpair.motion.settling import STATUSES, Status
-from gearpair.oscillator import Oscillator
+from gearpair.oscillator import SCALARS, Oscillator
 from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
@@ -41,6 +41,7 @@ def check_origin(osc: Oscillator, result: xr.Dataset) -> None:
     """Raise a ValueError unless a result is of `osc`, whatever the values of the parameters that it is over."""
     own = Oscillator.from_attrs(result)
     over = {name: osc.parameter(name) for name in osc.parameters if name in result.dims and name in own.parameters}
+    over |= {name: getattr(osc, name) for name in over if name in SCALARS}  # also one that is not given
     if own.replace(**over) != osc:
         raise ValueError(f"result must be one of this oscillator, {osc!r}, got one of another, {own!r}")
 

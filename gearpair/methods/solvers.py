@@ -59,14 +59,15 @@ def integrated_trajectory(
     check_choice("method", method, METHODS)
     check_number("rtol", rtol, above=0.0)
     check_number("atol", atol, above=0.0)
-    wave, omega, zeta = osc.stiffness, osc.mesh_frequency, osc.damping_ratio
+    wave, omega = osc.stiffness, osc.mesh_frequency
+    contact_damping, flight_damping = osc.damping_ratio, osc.damping_in_flight
     amplitude = osc.error_amplitude * omega**2
     higher = [(size * (order * omega) ** 2, order * omega, phase) for order, size, phase in osc.harmonics]
 
     def slope(tau: float, y: NDArray[np.float64]) -> tuple[float, float]:
         x, v = y
         gap = x - 1.0 if x > 1.0 else x + 1.0 if x < -1.0 else 0.0
-        stiffness = wave(tau / osc.period) if gap else 0.0
+        stiffness, zeta = (wave(tau / osc.period), contact_damping) if gap else (0.0, flight_damping)
         force = osc.mean_force + amplitude * np.sin(omega * tau + osc.error_phase)
         for size, rate, phase in higher:
             force += size * np.sin(rate * tau + phase)

@@ -161,14 +161,15 @@ def transient_periods(osc: Oscillator) -> int:
     """Mesh periods that a transient needs to fall to 9 digits at best: ``20 / (zeta T)``, within 500 to 20 000.
 
     Transients die like exp(-zeta tau) at best, slower near a bifurcation. Without damping none dies and the map
-    preserves areas: there is nothing to wait for, and 500 are as good as any.
+    preserves areas: there is nothing to wait for, and 500 are as good as any. Where free flight has another damping
+    ratio, zeta is the mean of the two: that of a motion which flies half of the time.
 
     Examples
     --------
     >>> transient_periods(Oscillator(damping_ratio=0.00275))
     811
     """
-    rate = osc.damping_ratio * osc.period
+    rate = 0.5 * (osc.damping_ratio + osc.damping_in_flight) * osc.period
     return math.ceil(min(max(20.0 / rate, 500), 20_000)) if rate > 0.0 else 500
 
 
@@ -218,7 +219,8 @@ def settle_batch(
     arguments = (lanes, chain, limits, known or nothing_known(settings), out)
     single = chain == n  # one chain is carried along in parts, one after the other
     block = BLOCK_OF_ONE if len(oscillators) == 1 else BLOCK if chain == 1 or single else chain
-    watches = np.where(lanes.scalars.reshape(-1, 5)[lanes.own, 3] > 0.0, settings.n_watch, 0)  # of damped motions alone
+    damped = np.array([max(o.damping_ratio, o.damping_in_flight) > 0.0 for o in oscillators], dtype=bool)
+    watches = np.where(damped[lanes.own], settings.n_watch, 0)  # of damped motions alone
     periods = np.minimum(lanes.n_transient + settings.n_exponent + watches, most)
     text, longest = f"at most {periods.sum():.1e} mesh periods", float(periods.max(initial=0))
     with tqdm(desc=text, total=n, unit="motion", disable=not progress) as bar:
@@ -243,9 +245,7 @@ def lanes_of(oscillators: Sequence[Oscillator], starts: NDArray[np.float64], set
     own = np.repeat(np.arange(m), len(starts) // max(m, 1))
     waits = [transient_periods(o) if settings.n_transient is None else settings.n_transient for o in oscillators]
     return Lanes(
-        np.array(
-            [(o.mean_force, o.error_amplitude, o.error_phase, o.damping_ratio, o.mesh_frequency) for o in oscillators]
-        ),
+        np.array([o.coefficients[:6] for o in oscillators]),
         np.array([(*o.stiffness.edges, 1.0) for o in oscillators]),
         np.array([o.stiffness.levels for o in oscillators]),
         np.array([o.harmonics for o in oscillators], dtype=float).reshape(m, n_harmonics, 3),

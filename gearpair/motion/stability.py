@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from gearpair._checks import check_array, check_count, checked
 from gearpair._flow.closed_form import TERMS
-from gearpair._flow.observe import stretch
+from gearpair._flow.measures import N_MEASURES
+from gearpair._flow.observe import mean_damping, stretch
 from gearpair.motion.trajectories import check_start, passed, raise_unless_ok
 from gearpair.oscillator import Oscillator
 
@@ -30,7 +31,8 @@ def lyapunov_exponents(
     Returns
     -------
     ndarray of float, shape (2,)
-        Per unit tau, descending. Their sum is ``-2 zeta``, since ``det M = exp(-2 zeta T)`` exactly.
+        Per unit tau, descending. Their sum is ``-2 zeta``, since ``det M = exp(-2 zeta T)`` exactly; where free flight
+        has another damping ratio, -2 times the mean of the two over time.
 
     Notes
     -----
@@ -48,14 +50,16 @@ def lyapunov_exponents(
     x, v = passed(osc, x, v, n_transient)
     q, series, reach = np.eye(2), np.empty(TERMS), np.array([x, x, 0.0, 0.0])
     for _ in range(2):  # to turn the tangent, then to measure
-        growth = 0.0
+        growth = damping = 0.0
         for done in range(0, n_periods, AT_ONCE):
             span = min(AT_ONCE, n_periods - done)
+            mean = mean_damping(osc.cells, x, v, span, series, np.empty(N_MEASURES))
+            damping += (mean - damping) * (span / (done + span))
             status, x, v, total = stretch(osc.cells, x, v, span, series, q, reach)
             raise_unless_ok(status, n_transient + n_periods)
             growth += total
     largest = growth / (n_periods * osc.period)
-    return np.array([largest, -2.0 * osc.damping_ratio - largest])
+    return np.array([largest, -2.0 * damping - largest])
 
 
 @checked

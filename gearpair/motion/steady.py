@@ -44,7 +44,7 @@ class SteadyState:
     impact_state : ImpactState or None
         None where the motion did not stay bounded.
     lyapunov_exponents : ndarray of float, shape (2,)
-        Per unit tau, descending; their sum is ``-2 zeta``.
+        Per unit tau, descending; their sum is ``-2 zeta``, zeta the mean over time where free flight has another.
     exponent_error : float
         Standard error of the largest exponent; 0 for a periodic motion.
     """

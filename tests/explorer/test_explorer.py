@@ -56,6 +56,7 @@ def wait_for_diagram(page):
         ("#x=-2.3&v=1.5", {}, (-2.3, 1.5)),
         ("#mesh_frequency=1.9&damping_ratio=0.05&mean_force=0.2&error_phase=1.2", {
             "mesh_frequency": 1.9, "damping_ratio": 0.05, "mean_force": 0.2, "error_phase": 1.2}, (1.0, 0.0)),
+        ("#damping_ratio=0.05&flight_damping=0", {"damping_ratio": 0.05, "flight_damping": 0.0}, (1.0, 0.0)),
         ("#a=0.3&b=0.2&contact_ratio=1.5&error_amplitude=0.4", {
             "a": 0.3, "b": 0.2, "contact_ratio": 1.5, "error_amplitude": 0.4}, (1.0, 0.0)),
     ],
@@ -72,6 +73,20 @@ def test_the_readout_is_what_gearpair_says(explorer, hash, changes, start):
     assert shown(page, "multipliers").startswith(f"{first.real:.3f}")
     assert shown(page, "exponent") == f"{truth.lyapunov_exponents[0]:.3f}"
     assert f"period {truth.period}" in page.evaluate(f"{EXPLORER}.shown.name")
+
+
+def test_a_box_takes_the_damping_out_of_the_play(explorer):
+    page = explorer("#damping_ratio=0.05")
+    box = "document.querySelector('[name=undamped_flight]')"
+    for flight_damping in (0.0, None):
+        page.evaluate(f"{box}.click()")
+        page.wait_for_function(f"{EXPLORER}.state.flight_damping === {json.dumps(flight_damping)} && {SETTLED}")
+        truth = gp.steady_state(gp.Oscillator(damping_ratio=0.05, flight_damping=flight_damping))
+        assert shown(page, "range") == f"{truth.x_min:.3f} to {truth.x_max:.3f}"
+        assert page.evaluate(f"{box}.checked") == (flight_damping == 0.0)
+        page.wait_for_function(f"location.hash.includes('flight_damping=0') === {json.dumps(flight_damping == 0.0)}")
+    page = explorer("#flight_damping=0.01")
+    assert page.evaluate(f"{box}.indeterminate")
 
 
 def paragraphs_of(path):

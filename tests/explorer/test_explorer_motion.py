@@ -149,6 +149,28 @@ def test_settled_motions(run):
     assert counts["aperiodic"] > 5
 
 
+def test_another_damping_in_free_flight(run):
+    """States, impacts and settled motions with none, little and much of it."""
+    rng = np.random.default_rng(7)
+    cases, ends = [], []
+    for i in range(60):
+        osc, x, v = random_case(rng)
+        osc = osc.replace(flight_damping=(0.0, 0.05, 1.5)[i % 3])
+        cases.append({**as_json(osc, x, v), "periods": 1})
+        ends.append([gp.stroboscopic_map(osc, x, v), growth(osc, x, v)])
+    for answer, (end, most) in zip(run(RECORD, cases), ends, strict=True):
+        np.testing.assert_allclose(answer["ends"][:2], end, rtol=0.0, atol=1e-12 * most * max(1.0, *map(abs, end)))
+    for flight_damping in (0.0, 0.2):
+        osc = gp.Oscillator(damping_ratio=0.05, flight_damping=flight_damping)
+        state = gp.steady_state(osc)
+        (answer,) = run(SETTLE, [as_json(osc)])
+        assert (answer["status"], answer["period"]) == (state.status, state.period)
+        found = [answer["low"], answer["high"], *answer["exponents"]]
+        np.testing.assert_allclose(found, [state.x_min, state.x_max, *state.lyapunov_exponents], rtol=0.0, atol=1e-9)
+        multipliers = np.array(answer["multipliers"]) @ [1.0, 1.0j]
+        np.testing.assert_allclose(multipliers, state.multipliers, rtol=0.0, atol=1e-8)
+
+
 def test_large_starts_escape_where_contact_is_unstable(run):
     osc = gp.Oscillator(mesh_frequency=2.0, damping_ratio=0.001, stiffness=gp.StiffnessWave.rectangular(1.5, 0.5, 0.5))
     assert gp.steady_state(osc, 50.0, 0.0).status == "escaped"

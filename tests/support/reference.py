@@ -24,7 +24,8 @@ NOISE = mpf(10) ** -36  # what a position can be off by, mostly from dividing by
 
 def plain_coefficients(osc: gp.Oscillator) -> Coefficients:
     """What the kernels take, built by hand."""
-    scalars = (osc.mean_force, osc.error_amplitude, osc.error_phase, osc.damping_ratio, osc.mesh_frequency)
+    damping = osc.damping_ratio, osc.damping_in_flight
+    scalars = (osc.mean_force, osc.error_amplitude, osc.error_phase, *damping, osc.mesh_frequency)
     harmonics = np.array(osc.harmonics, dtype=float).reshape(-1, 3)
     return Coefficients(*scalars, np.array([*osc.stiffness.edges, 1.0]), np.array(osc.stiffness.levels), harmonics)
 
@@ -43,14 +44,15 @@ def right_hand_side(osc: gp.Oscillator):
         force = osc.mean_force
         for n, amplitude, phase in every_harmonic(osc):
             force += amplitude * (n * osc.mesh_frequency) ** 2 * np.sin(n * osc.mesh_frequency * tau + phase)
-        return v, force - 2.0 * osc.damping_ratio * v - float(osc.stiffness(tau / osc.period)) * gap
+        zeta = osc.damping_ratio if gap else osc.damping_in_flight
+        return v, force - 2.0 * zeta * v - float(osc.stiffness(tau / osc.period)) * gap
 
     return slope
 
 
 def dop853_period(osc: gp.Oscillator, x: float, v: float) -> tuple[float, float]:
     """The state after one mesh period from the start of one."""
-    zeta, omega = osc.damping_ratio, osc.mesh_frequency
+    omega = osc.mesh_frequency
     edges = [*osc.stiffness.edges, 1.0]
     region = 0
     for i, level in enumerate(osc.stiffness.levels):
@@ -58,12 +60,12 @@ def dop853_period(osc: gp.Oscillator, x: float, v: float) -> tuple[float, float]
         while tau < end:
             force = osc.force(tau)
             jerk = sum(a * n**3 * omega**3 * np.cos(n * omega * tau + phase) for n, a, phase in every_harmonic(osc))
-            rates = (v, force - 2.0 * zeta * v, jerk)
+            rates = (v, force, jerk)  # at rest no damping acts
             way = next((rate for rate in rates if rate != 0.0), 0.0)
             region = 1 if x > 1.0 or (x == 1.0 and way > 0.0) else -1 if x < -1.0 or (x == -1.0 and way < 0.0) else 0
-            stiffness = level * abs(region)
+            stiffness, zeta = level * abs(region), osc.damping_ratio if region else osc.damping_in_flight
 
-            def slope(t, y, stiffness=stiffness, region=region):
+            def slope(t, y, stiffness=stiffness, region=region, zeta=zeta):
                 return y[1], osc.force(t) - 2.0 * zeta * y[1] - stiffness * (y[0] - region)
 
             leave = []

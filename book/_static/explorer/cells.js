@@ -18,13 +18,14 @@ gearpair.define("cells", ["closed_form"], function (closedForm) {
   }
 
   // `oscillator`: mean_force, error_amplitude, error_phase, damping_ratio, mesh_frequency and either `edges` (from 0
-  // to 1) with `levels`, or contact_ratio, a, b and reading.
+  // to 1) with `levels`, or contact_ratio, a, b and reading; flight_damping where free flight has a damping of its own.
   function buildCells(oscillator) {
     const { mean_force, error_amplitude, error_phase, damping_ratio, mesh_frequency } = oscillator;
+    const flightDamping = oscillator.flight_damping ?? damping_ratio;
     const { edges, levels } = oscillator.levels ? oscillator : rectangle(oscillator);
     const period = (2 * Math.PI) / mesh_frequency;
     const counts = levels.map((kappa, i) => {
-      const rate = Math.max(fastestRate(kappa, damping_ratio, mesh_frequency), 2 * damping_ratio);
+      const rate = Math.max(fastestRate(kappa, damping_ratio, mesh_frequency), 2 * flightDamping);
       return Math.max(1, Math.ceil(((edges[i + 1] - edges[i]) * period * rate) / REACH));
     });
     const size = counts.reduce((sum, count) => sum + count, 0);
@@ -33,6 +34,7 @@ gearpair.define("cells", ["closed_form"], function (closedForm) {
       size,
       period,
       dampingRatio: damping_ratio,
+      flightDamping,
       force: mean_force,
       stiffness: levels,
       width: new Float64Array(size),
@@ -50,9 +52,9 @@ gearpair.define("cells", ["closed_form"], function (closedForm) {
     for (let i = 0; i < levels.length; i++) {
       const span = (edges[i + 1] - edges[i]) / counts[i];
       const width = span * period;
-      for (const kappa of [0, levels[i]]) {
+      for (const [kappa, zeta] of [[0, flightDamping], [levels[i], damping_ratio]]) {
         const basis = new Float64Array(5 * TERMS);
-        fillBasis(kappa, damping_ratio, mesh_frequency, width, basis);
+        fillBasis(kappa, zeta, mesh_frequency, width, basis);
         cells.bases.push(basis);
         cells.fourths.push(Float64Array.from({ length: 5 }, (_, k) => fourthDerivativeBound(basis, 1, k * TERMS)));
       }

@@ -36,6 +36,7 @@ gearpair.define("controls", ["state"], function ({ NUMBERS, readValue, complaint
         fields[name] = { field, range };
         group.append(row);
       }
+      if (title === "Gear pair") group.append(freeFlight(onChange));
       if (title === "Mesh stiffness") group.append(reading(onChange));
       form.append(group);
     }
@@ -54,6 +55,14 @@ gearpair.define("controls", ["state"], function ({ NUMBERS, readValue, complaint
     return choice;
   }
 
+  function freeFlight(onChange) {
+    const choice = document.createElement("label");
+    choice.className = "gp-check";
+    choice.innerHTML = '<input type="checkbox" name="undamped_flight"> No damping while the teeth are apart';
+    choice.addEventListener("change", ({ target }) => onChange({ flight_damping: target.checked ? 0 : null }));
+    return choice;
+  }
+
   // Darken the track of a slider up to its thumb.
   function fill(range) {
     range.style.setProperty("--filled", `${(100 * (range.valueAsNumber - range.min)) / (range.max - range.min)}%`);
@@ -67,6 +76,9 @@ gearpair.define("controls", ["state"], function ({ NUMBERS, readValue, complaint
       fill(range);
       field.value = Number(state[name].toPrecision(6));
     }
+    const box = form.querySelector("[name=undamped_flight]");
+    box.checked = state.flight_damping === 0;
+    box.indeterminate = state.flight_damping > 0; // by the address
     for (const radio of form.querySelectorAll("[name=reading]")) radio.checked = radio.value === state.reading;
   }
 

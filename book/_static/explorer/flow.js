@@ -14,8 +14,7 @@ gearpair.define("flow", ["closed_form", "cells", "certified"], function (closedF
   const ahead = new Float64Array(4); // after `followCell`: X and X' at the cell's end, lower and upper bound of X
 
   function startAt(cells, x, v) {
-    const acceleration = cells.force + cells.sine[0] - 2 * cells.dampingRatio * v;
-    return { x, v, region: regionAt(x, v, acceleration, cells.cosine[0]) };
+    return { x, v, region: regionAt(x, v, cells.force + cells.sine[0], cells.cosine[0]) };
   }
 
   // Look over cell `j` as if all of it were spent in the present region; whether that is certain.

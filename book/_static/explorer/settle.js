@@ -5,7 +5,7 @@
 // the same orbit some time later.
 gearpair.define("settle", ["flow", "tangent", "observe"], function (flow, tangent, observe) {
   const { OK, ESCAPED, startAt, walk } = flow;
-  const { walkTangent, newton, exponents, spectralRadius } = tangent;
+  const { walkTangent, meanDamping, newton, exponents, spectralRadius } = tangent;
   const { extremes } = observe;
 
   const [RETURNED, CAPTURED] = [1e-8, 1e-6];
@@ -17,9 +17,9 @@ gearpair.define("settle", ["flow", "tangent", "observe"], function (flow, tangen
   const PIECE = 200; // mesh periods between two chances to draw
   const DEFAULTS = { maxPeriod: 64, exponentPeriods: 2000, samples: 256 };
 
-  // Mesh periods that a transient needs to fall to 9 digits at best.
+  // Mesh periods that a transient needs to fall to 9 digits at best, flying half of the time.
   function transientPeriods(cells) {
-    const rate = cells.dampingRatio * cells.period;
+    const rate = 0.5 * (cells.dampingRatio + cells.flightDamping) * cells.period;
     return rate > 0 ? Math.min(Math.max(Math.ceil(20 / rate), 500), 20000) : 500;
   }
 
@@ -114,7 +114,8 @@ gearpair.define("settle", ["flow", "tangent", "observe"], function (flow, tangen
     const { period, monodromy } = orbit;
     const range = extremes(cells, startAt(cells, points[0].x, points[0].v), period);
     const largest = Math.log(spectralRadius(monodromy)) / (period * cells.period);
-    const exponents = [largest, -2 * cells.dampingRatio - largest];
+    const damping = meanDamping(cells, orbit.x, orbit.v, period);
+    const exponents = [largest, -2 * damping - largest];
     return { ...range, status: "periodic", period, points, monodromy, exponents, error: 0 };
   }
 

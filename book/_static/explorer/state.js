@@ -20,7 +20,9 @@ gearpair.define("state", [], function () {
     { name: "reading", value: "printed", choices: ["printed", "swapped"] },
     { name: "diagram", value: "mesh_frequency", choices: ["mesh_frequency", "damping_ratio", "mean_force", "error_amplitude"] },
   ];
-  const ENTRIES = [...NUMBERS, ...CHOICES];
+  // A number that need not be given.
+  const FLIGHT_DAMPING = number("flight_damping", "ζ<sub>f</sub>", "Damping ratio in free flight", null, 0, 0.2);
+  const ENTRIES = [...NUMBERS, FLIGHT_DAMPING, ...CHOICES];
   const DEFAULTS = Object.fromEntries(ENTRIES.map(({ name, value }) => [name, value]));
 
   // The entry's value that `text` stands for, or null where it stands for none.
@@ -45,7 +47,7 @@ gearpair.define("state", [], function () {
       const entry = ENTRIES.find((candidate) => candidate.name === name);
       const value = entry ? readValue(entry, text) : null;
       if (!entry) complaints.push(`There is no parameter “${name}”; there are ${ENTRIES.map((e) => e.name).join(", ")}.`);
-      else if (value === null) complaints.push(`${complaint(entry, text)} The default ${entry.value} is used.`);
+      else if (value === null) complaints.push(`${complaint(entry, text)} The default ${entry.value ?? "(as in contact)"} is used.`);
       else state[name] = value;
     }
     return { state, complaints };

@@ -1,7 +1,8 @@
 // The variational flow along a walk, Newton's method on the period map, Lyapunov exponents.
 //
 // The force is continuous at X = +-1 and the stiffness switches at fixed times, so the variational flow has no jump:
-// its matrix is the product of the linear pieces' own. As in tangent.py, newton.py and observe.py of gearpair/_flow, but
+// its matrix is the product of the linear pieces' own. Where free flight has a damping of its own it has one, of
+// determinant 1, at each crossing. As in tangent.py, newton.py and observe.py of gearpair/_flow, but
 // that Newton's method gives up on no orbit for being unstable.
 gearpair.define("tangent", ["closed_form", "cells", "flow"], function (closedForm, tables, flow) {
   const { TERMS, value, evaluate } = closedForm;
@@ -28,15 +29,36 @@ gearpair.define("tangent", ["closed_form", "cells", "flow"], function (closedFor
         apply(maps[row + XX], maps[row + XV], maps[row + VX], maps[row + VV], m);
         return true;
       },
-      segment(_period, j, _t, duration, { region }) {
+      segment(_period, j, _t, duration, { region }, crossed) {
         const basis = cells.bases[2 * cells.level[j] + Math.abs(region)];
         const width = cells.width[j];
         evaluate(basis, duration);
         const [xx, vx] = value;
         evaluate(basis, duration, TERMS);
         apply(xx, value[0], vx / width, value[1] / width, m);
+        const loss = 2 * (cells.flightDamping - cells.dampingRatio);
+        if (crossed && loss !== 0) apply(1, 0, region === 0 ? loss : -loss, 1, m);
       },
     });
+  }
+
+  // The mean damping ratio over `periods` from (x, v): minus half the sum of the exponents (Liouville).
+  function meanDamping(cells, x, v, periods) {
+    if (cells.flightDamping === cells.dampingRatio) return cells.dampingRatio;
+    let total = 0;
+    const add = (j, duration, region) => {
+      total += cells.width[j] * duration * (region === 0 ? cells.flightDamping : cells.dampingRatio);
+    };
+    walk(cells, startAt(cells, x, v), periods, {
+      whole(j, { region }) {
+        add(j, 1, region);
+        return true;
+      },
+      segment(_period, j, _t, duration, { region }) {
+        add(j, duration, region);
+      },
+    });
+    return total / (periods * cells.period);
   }
 
   // A fixed point of the `period`-fold map near (x, v): { converged, x, v, monodromy }.
@@ -92,6 +114,7 @@ gearpair.define("tangent", ["closed_form", "cells", "flow"], function (closedFor
     const perBlock = Math.max(1, Math.floor(periods / blocks));
     // One block first, uncounted, to turn the first direction into the most unstable one.
     stretch(cells, motion, perBlock, q);
+    const damping = meanDamping(cells, motion.x, motion.v, perBlock * blocks);
     let mean = 0;
     let spread = 0;
     for (let block = 0; block < blocks; block++) {
@@ -104,7 +127,7 @@ gearpair.define("tangent", ["closed_form", "cells", "flow"], function (closedFor
       spread += delta * (rate - mean);
     }
     const error = Math.sqrt(spread / Math.max(1, blocks - 1) / blocks);
-    return { status: OK, largest: mean, smallest: -2 * cells.dampingRatio - mean, error };
+    return { status: OK, largest: mean, smallest: -2 * damping - mean, error };
   }
 
   function spectralRadius(m) {
@@ -114,5 +137,5 @@ gearpair.define("tangent", ["closed_form", "cells", "flow"], function (closedFor
     return square < 0 ? Math.sqrt(determinant) : Math.abs(half) + Math.sqrt(square);
   }
 
-  return { walkTangent, newton, exponents, spectralRadius };
+  return { walkTangent, meanDamping, newton, exponents, spectralRadius };
 });
