@@ -26,12 +26,13 @@ def plain_coefficients(osc: gp.Oscillator) -> Coefficients:
     """What the kernels take, built by hand."""
     scalars = (osc.mean_force, osc.error_amplitude, osc.error_phase, osc.damping_ratio, osc.mesh_frequency)
     harmonics = np.array(osc.harmonics, dtype=float).reshape(-1, 3)
-    return Coefficients(*scalars, np.array([*osc.stiffness.edges, 1.0]), np.array(osc.stiffness.levels), harmonics)
+    return Coefficients(*scalars, np.array([*osc.stiffness.edges, 1.0]), np.array(osc.stiffness.levels), harmonics, 1)
 
 
-def every_harmonic(osc: gp.Oscillator) -> list[tuple[int, float, float]]:
-    """(order, amplitude, phase) of the whole transmission error."""
-    return [(1, osc.error_amplitude, osc.error_phase), *osc.harmonics]
+def every_harmonic(osc: gp.Oscillator) -> list[tuple[float, float, float]]:
+    """(frequency over the mesh frequency, amplitude, phase) of the whole transmission error."""
+    shafts = [(order / teeth, amplitude, phase) for teeth, amplitude, phase, order in osc.shaft_orders]
+    return [(1, osc.error_amplitude, osc.error_phase), *osc.harmonics, *shafts]
 
 
 def right_hand_side(osc: gp.Oscillator):
@@ -43,7 +44,7 @@ def right_hand_side(osc: gp.Oscillator):
         force = osc.mean_force
         for n, amplitude, phase in every_harmonic(osc):
             force += amplitude * (n * osc.mesh_frequency) ** 2 * np.sin(n * osc.mesh_frequency * tau + phase)
-        return v, force - 2.0 * osc.damping_ratio * v - float(osc.stiffness(tau / osc.period)) * gap
+        return v, force - 2.0 * osc.damping_ratio * v - float(osc.stiffness(tau / osc.mesh_period)) * gap
 
     return slope
 
