@@ -24,7 +24,9 @@ def describe_orbit(cells: Cells, orbit: Orbit, work: Scratch, out: Settled, i: i
     period, m = orbit.period, out.monodromy[i]
     out.status[i], out.period[i] = PERIODIC, period
     derivative(cells, orbit.x, orbit.v, period, m, work.series)
-    fill_exponents(cells, np.log(spectral_radius(m)) / (period * cells.period), 0.0, out.exponents[i])
+    radius = spectral_radius(m)  # after very long it may be below all floats: then damping alone is told
+    rate = np.log(radius) / (period * cells.period) if radius > 0.0 else -cells.damping_ratio
+    fill_exponents(cells, rate, 0.0, out.exponents[i])
     x, v = smallest_point(cells, orbit.x, orbit.v, period, work.series)
     begin_reach(work.reach, x)
     walk(cells, x, v, period, work.series, None, work.reach)

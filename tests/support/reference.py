@@ -8,6 +8,7 @@ sampling of X'' parts the piece where X' is monotone, its roots part it where X 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import product
 
 import numpy as np
 from mpmath import mp, mpc, mpf
@@ -50,12 +51,12 @@ def right_hand_side(osc: gp.Oscillator):
 
 
 def dop853_period(osc: gp.Oscillator, x: float, v: float) -> tuple[float, float]:
-    """The state after one mesh period from the start of one."""
+    """The state after one base period from the start of one."""
     zeta, omega = osc.damping_ratio, osc.mesh_frequency
     edges = [*osc.stiffness.edges, 1.0]
     region = 0
-    for i, level in enumerate(osc.stiffness.levels):
-        tau, end = edges[i] * osc.period, edges[i + 1] * osc.period
+    for turn, (i, level) in product(range(osc.mesh_periods), enumerate(osc.stiffness.levels)):
+        tau, end = (turn + edges[i]) * osc.mesh_period, (turn + edges[i + 1]) * osc.mesh_period
         while tau < end:
             force = osc.force(tau)
             jerk = sum(a * n**3 * omega**3 * np.cos(n * omega * tau + phase) for n, a, phase in every_harmonic(osc))
@@ -74,7 +75,7 @@ def dop853_period(osc: gp.Oscillator, x: float, v: float) -> tuple[float, float]
                     leave[-1].terminal = True
                     leave[-1].direction = direction if region == 0 else -direction
             if abs(x) == 1.0:  # leave the boundary first, or its event is found again
-                away = min(osc.period / 100, 0.25 * abs(v) / max(abs(rates[1]), v * v, 1e-300))
+                away = min(osc.mesh_period / 100, 0.25 * abs(v) / max(abs(rates[1]), v * v, 1e-300))
                 leave = leave if v == 0.0 else []
             run = solve_ivp(
                 slope,
@@ -84,7 +85,7 @@ def dop853_period(osc: gp.Oscillator, x: float, v: float) -> tuple[float, float]
                 events=leave,
                 rtol=1e-13,
                 atol=1e-14,
-                max_step=osc.period / 20 / max(n for n, _, _ in every_harmonic(osc)),
+                max_step=osc.mesh_period / 20 / max(n for n, _, _ in every_harmonic(osc)),
             )
             tau, (x, v) = run.t[-1], run.y[:, -1]
             if run.status == 1:
