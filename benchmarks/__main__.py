@@ -52,7 +52,7 @@ def print_workload() -> None:
     print(workload.start_up(), flush=True)
     print("\nGrowth with size, all cores (a carried diagram is one chain and runs on one); processor time per motion")
     print(workload.growth(), flush=True)
-    print("\nFive harmonics of the transmission error, processor time of a mesh period against one harmonic's")
+    print("\nMore of a transmission error, processor time of a mesh period against one harmonic's")
     print(workload.harmonics(), flush=True)
     print("\nGrowth with cores (other work on the machine takes its share of the gain)")
     print(workload.cores(), flush=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import resource
 from statistics import median
 from time import perf_counter, process_time
+from typing import Any
 
 from numba import config
 
@@ -18,6 +19,7 @@ MOTIONS = (1500, 6000)
 SPEEDS = (40, 160)
 # Too small to change the motion, so that what they cost is what the harmonics themselves cost.
 FIVE_HARMONICS = tuple((order, 1e-9, 0.3) for order in (2, 3, 4, 5))
+SHAFTS = {"run-out, 34 teeth": [(34, 1e-9)], "run-out, 25 and 71 teeth": [(25, 1e-9), (71, 1e-9)]}
 FREQUENCIES = (0.7, 0.95, 1.6, 2.2)
 SPREAD = {
     "restarted": ("diagram from one start, 200 values", 200),
@@ -50,22 +52,32 @@ def _cost(m: Measured, name: str, motions: int, before: Measured) -> tuple[str, 
 
 
 def harmonics(rounds: int = 9, periods: int = 20_000) -> Table:
-    """A mesh period with five harmonics of the transmission error against one, in turns, at the same motion."""
+    """A mesh period with more of a transmission error against one harmonic alone, in turns, at the same motion."""
+    more: dict[str, dict[str, Any]] = {
+        "five harmonics": {"harmonics": FIVE_HARMONICS},
+        **{name: {"shaft_orders": s} for name, s in SHAFTS.items()},
+    }
     rows = []
     for omega in FREQUENCIES:
         one = gp.Oscillator(mesh_frequency=omega)
-        both = one, one.replace(harmonics=FIVE_HARMONICS)
         x, v = gp.stroboscopic_map(one, 1.0, 0.0, 500)
-        ratios = []
-        for _ in range(rounds):
-            spent = []
-            for osc in both:
-                begin = process_time()
-                gp.stroboscopic_map(osc, x, v, periods)
-                spent.append(process_time() - begin)
-            ratios.append(spent[1] / spent[0])
-        rows.append((f"{omega:.2f}", f"{median(ratios):.2f}"))
-    return Table(("Omega_h", "five harmonics / one"), rows)
+        ratios = [_ratio(one, one.replace(**each), float(x), float(v), rounds, periods) for each in more.values()]
+        rows.append((f"{omega:.2f}", *(f"{ratio:.2f}" for ratio in ratios)))
+    return Table(("Omega_h", *(f"{name} / one harmonic" for name in more)), rows)
+
+
+def _ratio(one: gp.Oscillator, other: gp.Oscillator, x: float, v: float, rounds: int, periods: int) -> float:
+    """What a mesh period of `other` costs over one of `one`, in turns, `periods` each."""
+    ratios = []
+    for _ in range(rounds):
+        spent = []
+        for osc in (one, other):
+            n = osc.base_periods(periods)
+            begin = process_time()
+            gp.stroboscopic_map(osc, x, v, n)
+            spent.append((process_time() - begin) / (n * osc.mesh_periods))
+        ratios.append(spent[1] / spent[0])
+    return median(ratios)
 
 
 def cores(rounds: int = 5) -> Table:

@@ -9,7 +9,7 @@ from typing import Any, Self
 import numpy as np
 
 from gearpair._checks import check_count, check_fields, check_number, checked
-from gearpair.oscillator import Harmonic, Oscillator, check_harmonics
+from gearpair.oscillator import Harmonic, Oscillator, ShaftOrder, check_harmonics, check_shaft_orders
 from gearpair.stiffness import StiffnessWave
 from gearpair.teeth import GearBlank, MeshStiffness, SpurPair, mesh_stiffness
 from gearpair.teeth.meshing import Coupling
@@ -62,6 +62,9 @@ class GearDrive:
     error_harmonics : sequence of (order, amplitude, phase)
         What the transmission error has besides its first harmonic: orders from 2, amplitudes in micrometres, phases
         in radians, as `Harmonic`.
+    shaft_orders : sequence of (teeth, amplitude, phase, order)
+        Run-out and other errors that repeat with a wheel's revolution: its number of teeth, amplitude in micrometres,
+        phase in radians and waves a revolution (one, if left out), as `gearpair.oscillator.ShaftOrder`.
     mesh, pinion_blank, gear_blank : MeshStiffness, GearBlank and GearBlank, optional
         What stiffness and inertias come from; set by `from_pair`.
 
@@ -95,6 +98,7 @@ class GearDrive:
     error_phase_rad: float = 0.0
     stiffness: StiffnessWave = field(default_factory=StiffnessWave.rectangular)
     error_harmonics: tuple[Harmonic, ...] = ()
+    shaft_orders: tuple[ShaftOrder, ...] = ()
     mesh: MeshStiffness | None = field(default=None, repr=False, compare=False)
     pinion_blank: GearBlank | None = field(default=None, repr=False, compare=False)
     gear_blank: GearBlank | None = field(default=None, repr=False, compare=False)
@@ -105,6 +109,7 @@ class GearDrive:
         if not isinstance(self.stiffness, StiffnessWave):
             raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
         object.__setattr__(self, "error_harmonics", check_harmonics("error_harmonics", self.error_harmonics))
+        object.__setattr__(self, "shaft_orders", check_shaft_orders("shaft_orders", self.shaft_orders))
 
     @classmethod
     @checked
@@ -121,6 +126,7 @@ class GearDrive:
         gear_blank: GearBlank = SOLID,
         coupling: Coupling = "ring",
         n_levels: int = 16,
+        shaft_orders: Sequence[ShaftOrder | tuple[float, ...]] = (),
     ) -> Self:
         """The drive of a pair that is drawn: inertias, base radii and mesh stiffness follow from its geometry.
 
@@ -140,6 +146,8 @@ class GearDrive:
             As in `mesh_stiffness`.
         n_levels : int
             Levels of the staircase that stands for the mesh stiffness.
+        shaft_orders : sequence of (teeth, amplitude, phase, order)
+            As in `GearDrive`.
 
         Returns
         -------
@@ -161,6 +169,7 @@ class GearDrive:
             backlash_um=backlash_um,
             transmission_error_um=0.0,
             damping_n_s_per_m=0.0,
+            shaft_orders=check_shaft_orders("shaft_orders", shaft_orders),
         )
         return drive.replace(transmission_error_um=transmission_error_um, damping_ratio=damping_ratio)
 
@@ -300,12 +309,13 @@ class GearDrive:
                 Harmonic(order, amplitude * 1e-6 / self.half_backlash_m, phase)
                 for order, amplitude, phase in self.error_harmonics
             ),
+            shaft_orders=_scaled(self.shaft_orders, 1e-6 / self.half_backlash_m),
         )
 
     def with_oscillator(self, osc: Oscillator) -> Self:
         """The drive of the same teeth, inertias, radii, k_m and b_h whose oscillator is `osc`.
 
-        Torque, speed, transmission error, damping, phase and stiffness wave follow from `osc`.
+        Torque, speed, transmission error, errors of shafts, damping, phase and stiffness wave follow from `osc`.
         """
         unit_um = self.half_backlash_m * 1e6
         return self.replace(
@@ -314,7 +324,13 @@ class GearDrive:
             transmission_error_um=[(order, size * unit_um, phase) for order, size, phase in osc.all_harmonics],
             damping_ratio=osc.damping_ratio,
             stiffness=osc.stiffness,
+            shaft_orders=_scaled(osc.shaft_orders, unit_um),
         )
+
+
+def _scaled(orders: Sequence[ShaftOrder], unit: float) -> tuple[ShaftOrder, ...]:
+    """Errors of shafts in other units."""
+    return tuple(each._replace(amplitude=each.amplitude * unit) for each in orders)
 
 
 def _drawn(pair: SpurPair, coupling: Coupling, n_levels: int, blanks: dict[str, GearBlank | None]) -> dict[str, Any]:

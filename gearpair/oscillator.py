@@ -21,7 +21,8 @@ from gearpair.stiffness import Rectangle, StiffnessWave
 LARGEST_ORDER = 200  # of a harmonic: the cells of a period are as many times ten
 LARGEST_DAMPING_RATIO = 100.0
 LARGEST_MESH_FREQUENCY = 1e6
-MOST_TURNS = 1e6  # of the fastest rate in a mesh period, in radians: the tables of a period are as long
+MOST_TURNS = 1e6  # of the fastest rate in a base period, in radians: the tables of a period are as long
+MOST_MESH_PERIODS = 10_000  # in a base period
 
 
 class Harmonic(NamedTuple):
@@ -32,12 +33,24 @@ class Harmonic(NamedTuple):
     phase: float = 0.0  # at the start of a mesh period, in radians
 
 
+class ShaftOrder(NamedTuple):
+    """An error that repeats with a wheel's revolution, ``amplitude * sin(order * Omega tau / teeth + phase)``.
+
+    Run-out has the order 1, an oval wheel 2; pitch errors have many.
+    """
+
+    teeth: int  # of the wheel that has it: mesh periods of its revolution
+    amplitude: float  # over half the backlash in an `Oscillator`, in micrometres in a `GearDrive`
+    phase: float = 0.0  # at the start of a base period, in radians
+    order: int = 1  # waves in a revolution
+
+
 @dataclass(frozen=True, kw_only=True)
 class Oscillator:
     """A spur gear pair with backlash, ``X'' + 2 zeta X' + k(tau) f(X) = F_m + F_ah Omega^2 sin(Omega tau + phi)``.
 
     ``f`` is zero on [-1, 1] and has slope one outside. All quantities are dimensionless. Harmonics of the transmission
-    error add ``F_n (n Omega)^2 sin(n Omega tau + phi_n)`` each.
+    error add ``F_n (n Omega)^2 sin(n Omega tau + phi_n)`` each; errors of shafts the same, with ``n = order / teeth``.
 
     Parameters
     ----------
@@ -60,9 +73,17 @@ class Oscillator:
     harmonics : sequence of (order, amplitude, phase)
         What the transmission error has besides its first harmonic: orders n from 2 to 200, amplitudes
         F_n = e_n / b_h of at least 0, phases in radians, as `Harmonic`.
+    shaft_orders : sequence of (teeth, amplitude, phase, order)
+        What it has that repeats with a wheel's revolution, as `ShaftOrder`: teeth of at least 1, amplitudes over b_h of
+        at least 0; phase and order may be left out.
 
     Notes
     -----
+    With errors of shafts the *base period*, after which the equation repeats, is not the mesh period but the least
+    revolution that all their wheels complete: `mesh_periods` mesh periods, the least common multiple of their teeth. It
+    takes the mesh period's place as `period`: the section is ``tau mod period = 0``, the map leads from one base period
+    to the next, and "period 1" says that a motion repeats every revolution. Errors of amplitude 0 do not count.
+
     The article, items M5 and M6. Above a damping ratio of 100 the fastest time scale is so far
     below the mesh period that the exact flow would be mostly idle work; gears have about 0.01.
 
@@ -73,6 +94,9 @@ class Oscillator:
     (0.0, 0.7)
     >>> Oscillator(harmonics=[(2, 0.05, 0.0)]).harmonics
     (Harmonic(order=2, amplitude=0.05, phase=0.0),)
+    >>> turning = Oscillator(shaft_orders=[(12, 0.3), (18, 0.1, 0.5)])  # run-out of both wheels
+    >>> turning.mesh_periods, round(turning.period / turning.mesh_period, 12)
+    (36, 36.0)
     """
 
     mean_force: float = 0.1
@@ -83,6 +107,7 @@ class Oscillator:
     mesh_frequency: float = 0.7
     stiffness: StiffnessWave = field(default_factory=StiffnessWave.rectangular)
     harmonics: tuple[Harmonic, ...] = ()
+    shaft_orders: tuple[ShaftOrder, ...] = ()
 
     def __post_init__(self) -> None:
         check_fields(
@@ -97,19 +122,46 @@ class Oscillator:
         if not isinstance(self.stiffness, StiffnessWave):
             raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
         object.__setattr__(self, "harmonics", check_harmonics("harmonics", self.harmonics))
+        object.__setattr__(self, "shaft_orders", check_shaft_orders("shaft_orders", self.shaft_orders))
+        if self.mesh_periods > MOST_MESH_PERIODS:
+            raise ValueError(
+                f"shaft_orders must repeat together within {MOST_MESH_PERIODS} mesh periods, got teeth "
+                f"{[each.teeth for each in self.shaft_orders if each.amplitude]}, which need {self.mesh_periods}"
+            )
         check_number("mesh_frequency", self.mesh_frequency, at_most=LARGEST_MESH_FREQUENCY)
         rate = max(2.0 * self.damping_ratio, 2.0 * (self.flight_damping or 0.0), math.sqrt(max(self.stiffness.levels)))
-        slowest = 2.0 * math.pi * rate / MOST_TURNS
+        slowest = 2.0 * math.pi * rate / MOST_TURNS * self.mesh_periods
         if self.mesh_frequency < slowest:
+            shafts = f" and with a base period of {self.mesh_periods} mesh periods" if self.mesh_periods > 1 else ""
             raise ValueError(
-                f"mesh_frequency must be at least {slowest:.3g} at this damping ratio and these stiffness levels "
-                f"(a millionth of their rate), got {self.mesh_frequency}"
+                f"mesh_frequency must be at least {slowest:.3g} at this damping ratio and these stiffness levels"
+                f"{shafts} (a millionth of their rate), got {self.mesh_frequency}"
             )
 
     @property
-    def period(self) -> float:
-        """The mesh period T = 2 pi / Omega_h (dimensionless time)."""
+    def mesh_period(self) -> float:
+        """The mesh period 2 pi / Omega_h (dimensionless time)."""
         return 2.0 * np.pi / self.mesh_frequency
+
+    @cached_property
+    def mesh_periods(self) -> int:
+        """How many mesh periods the base period has: 1 unless there are `shaft_orders`, see the class's notes."""
+        return math.lcm(*(each.teeth for each in self.shaft_orders if each.amplitude > 0.0))
+
+    @property
+    def period(self) -> float:
+        """The base period T (dimensionless time): the mesh period, `mesh_periods` of them with `shaft_orders`."""
+        return self.mesh_period * self.mesh_periods
+
+    def base_periods(self, mesh_periods: int) -> int:
+        """The fewest base periods that as many mesh periods fit into.
+
+        Examples
+        --------
+        >>> Oscillator().base_periods(500), Oscillator(shaft_orders=[(34, 0.1)]).base_periods(500)
+        (500, 15)
+        """
+        return -(-mesh_periods // self.mesh_periods)
 
     @property
     def damping_in_flight(self) -> float:
@@ -118,16 +170,33 @@ class Oscillator:
 
     @property
     def all_harmonics(self) -> tuple[Harmonic, ...]:
-        """All harmonics of the transmission error, the first among them."""
+        """All harmonics of the transmission error, the first among them; without the errors of shafts."""
         return (Harmonic(1, self.error_amplitude, self.error_phase), *self.harmonics)
+
+    @property
+    def error_lines(self) -> tuple[tuple[float, float, float], ...]:
+        """All of the transmission error: frequency over the mesh frequency, amplitude and phase of each sinusoid.
+
+        Examples
+        --------
+        >>> Oscillator(shaft_orders=[(20, 0.3)]).error_lines
+        ((1, 0.2, 0.0), (0.05, 0.3, 0.0))
+        """
+        return (*self.all_harmonics, *self._shaft_lines)
+
+    @property
+    def _shaft_lines(self) -> tuple[tuple[float, float, float], ...]:
+        """Those of the shafts alone; none where no amplitude is above 0."""
+        turning = self.shaft_orders if any(each.amplitude > 0.0 for each in self.shaft_orders) else ()
+        return tuple((each.order / each.teeth, each.amplitude, each.phase) for each in turning)
 
     @property
     def parameters(self) -> tuple[str, ...]:
         """The names of the scalars that `replace`, sweeps and continuation can change.
 
         Those of parts have the part's number: ``"levels[0]"`` and ``"edges[1]"`` of the stiffness wave, whose first
-        edge is always 0, and of the harmonics, by their order, ``"harmonics[3].amplitude"`` and
-        ``"harmonics[3].phase"``.
+        edge is always 0; of the harmonics, by their order, ``"harmonics[3].amplitude"`` and ``"harmonics[3].phase"``;
+        and of the errors of shafts, by their place, ``"shaft_orders[0].amplitude"`` and so on.
 
         Examples
         --------
@@ -137,17 +206,18 @@ class Oscillator:
         levels = range(len(self.stiffness.levels))
         wave = [*(f"levels[{i}]" for i in levels), *(f"edges[{i}]" for i in levels[1:])]
         orders = dict.fromkeys(each.order for each in self.harmonics)
-        harmonics = [f"harmonics[{order}].{what}" for order in orders for what in ("amplitude", "phase")]
+        lines = [*(f"harmonics[{n}]" for n in orders), *(f"shaft_orders[{i}]" for i in range(len(self.shaft_orders)))]
+        error = [f"{line}.{what}" for line in lines for what in ("amplitude", "phase")]
         rectangle = WAVE_SCALARS if self.stiffness.rectangle is not None else ()
-        return (*SCALARS, *rectangle, *wave, *harmonics)
+        return (*SCALARS, *rectangle, *wave, *error)
 
     @checked
     def parameter(self, name: str) -> float:
         """The present value of one of `parameters`; of a `flight_damping` that is not given, that in contact."""
         self._check_name(name)
         if part := part_of(name):
-            if part.field == "harmonics":
-                return float(getattr(self.harmonics[self._place(part.number)], part.what))
+            if part.what:
+                return float(getattr(getattr(self, part.field)[self._place(part)], part.what))
             return float(getattr(self.stiffness, part.field)[part.number])
         if name == "flight_damping":
             return self.damping_in_flight
@@ -177,31 +247,27 @@ class Oscillator:
             changes["stiffness"] = StiffnessWave.rectangular(**{**vars(rectangle), **wave})
         return replace(self, **changes)
 
-    def _place(self, order: int) -> int:
-        """Where among the harmonics the one of an order stands."""
-        return [each.order for each in self.harmonics].index(order)
+    def _place(self, part: Part) -> int:
+        """Where among the harmonics, which are named by their order, or the errors of shafts a part stands."""
+        return [each.order for each in self.harmonics].index(part.number) if part.field == "harmonics" else part.number
 
     def _with_parts(self, changes: dict[str, Any], parts: dict[str, Part]) -> dict[str, Any]:
         """The changes with whole fields in place of their `parts`."""
         whole = {name: value for name, value in changes.items() if name not in parts}
         wave = {"edges": list(self.stiffness.edges), "levels": list(self.stiffness.levels)}
-        harmonics = list(self.harmonics)
+        lines: dict[str, list[Any]] = {"harmonics": list(self.harmonics), "shaft_orders": list(self.shaft_orders)}
         for name, part in parts.items():
-            for other in ("harmonics",) if part.field == "harmonics" else ("stiffness", *WAVE_SCALARS):
+            for other in (part.field,) if part.what else ("stiffness", *WAVE_SCALARS):
                 if other in whole:
                     raise ValueError(f"give either {other} or {name}, not both")
             value = check_number(name, changes[name])
-            if part.field == "harmonics":
-                place = self._place(part.number)
-                order, amplitude, phase = harmonics[place]
-                harmonics[place] = (
-                    Harmonic(order, value, phase) if part.what == "amplitude" else Harmonic(order, amplitude, value)
-                )
+            if part.what:
+                place = self._place(part)
+                lines[part.field][place] = lines[part.field][place]._replace(**{part.what: value})
             else:
                 wave[part.field][part.number] = value
         fields_of = {part.field for part in parts.values()}
-        if "harmonics" in fields_of:
-            whole["harmonics"] = tuple(harmonics)
+        whole |= {name: tuple(lines[name]) for name in fields_of & lines.keys()}
         if fields_of & wave.keys():
             whole["stiffness"] = StiffnessWave(tuple(wave["edges"]), tuple(wave["levels"]))
         return whole
@@ -242,22 +308,22 @@ class Oscillator:
         named = [each for each in self.parameters if part_of(each) is None]
         raise ValueError(
             f"unknown parameter {name!r}{hint}; the parameters are {', '.join(named)} and, of the parts that it has, "
-            "levels[i], edges[i], harmonics[order].amplitude and harmonics[order].phase"
+            "levels[i], edges[i], amplitude and phase of harmonics[order] and of shaft_orders[i]"
         )
 
     def force(self, tau: ArrayLike) -> NDArray[np.float64]:
-        """The right-hand side ``F_m + F_ah Omega^2 sin(Omega tau + phi)``, with harmonics, at `tau` (any shape)."""
+        """The right-hand side ``F_m + F_ah Omega^2 sin(Omega tau + phi)``, with all else, at `tau` (any shape)."""
         angle = self.mesh_frequency * check_array("tau", tau)
         total = self.mean_force + np.zeros_like(angle)
-        for order, amplitude, phase in self.all_harmonics:
+        for order, amplitude, phase in self.error_lines:
             total = total + amplitude * (order * self.mesh_frequency) ** 2 * np.sin(order * angle + phase)
         return total
 
     def error(self, tau: ArrayLike) -> NDArray[np.float64]:
-        """The transmission error over half the backlash, ``F_ah sin(Omega tau + phi)`` with harmonics, at `tau`."""
+        """The transmission error over half the backlash, ``F_ah sin(Omega tau + phi)`` with all else, at `tau`."""
         angle = self.mesh_frequency * check_array("tau", tau)
         total = np.zeros_like(angle)
-        for order, amplitude, phase in self.all_harmonics:
+        for order, amplitude, phase in self.error_lines:
             total = total + amplitude * np.sin(order * angle + phase)
         return total
 
@@ -273,7 +339,8 @@ class Oscillator:
             self.mesh_frequency,
             np.array([*self.stiffness.edges, 1.0]),
             np.array(self.stiffness.levels),
-            np.array(self.harmonics, dtype=float).reshape(-1, 3),
+            np.array([*self.harmonics, *self._shaft_lines], dtype=float).reshape(-1, 3),
+            self.mesh_periods,
         )
 
     @cached_property
@@ -310,7 +377,34 @@ def check_harmonics(name: str, harmonics: Any, lowest: int = 2) -> tuple[Harmoni
     return tuple(checked)
 
 
-PARTS = {"StiffnessWave": StiffnessWave, "Rectangle": Rectangle, "Harmonic": Harmonic}  # of the repr of an oscillator
-WHOLE = ("stiffness", "harmonics")  # the fields that are no scalars
+def check_shaft_orders(name: str, given: Any) -> tuple[ShaftOrder, ...]:
+    """Errors of shafts as named tuples, or a ValueError that says which is wrong."""
+    form = "(teeth, amplitude, phase, order)"
+    if isinstance(given, (str, bytes)) or not isinstance(given, Iterable):
+        raise ValueError(f"{name} must be a sequence of {form}, got {shown(given)}")
+    found: list[ShaftOrder] = []
+    for i, each in enumerate(given):
+        if np.shape(each) not in ((2,), (3,), (4,)):
+            raise ValueError(f"{name}[{i}] must be {form}, got {shown(each)}")
+        teeth, amplitude, phase, order = ShaftOrder(*each)
+        found.append(
+            ShaftOrder(
+                check_count(f"{name}[{i}] teeth", teeth),
+                check_number(f"{name}[{i}] amplitude", amplitude, at_least=0.0),
+                check_number(f"{name}[{i}] phase", phase),
+                check_count(f"{name}[{i}] order", order),
+            )
+        )
+        check_number(f"{name}[{i}] order", found[-1].order, at_most=LARGEST_ORDER * found[-1].teeth)
+    return tuple(found)
+
+
+PARTS = {  # of the repr of an oscillator
+    "StiffnessWave": StiffnessWave,
+    "Rectangle": Rectangle,
+    "Harmonic": Harmonic,
+    "ShaftOrder": ShaftOrder,
+}
+WHOLE = ("stiffness", "harmonics", "shaft_orders")  # the fields that are no scalars
 SCALARS = tuple(f.name for f in fields(Oscillator) if f.name not in WHOLE)
 WAVE_SCALARS = ("contact_ratio", "a", "b")

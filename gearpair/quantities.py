@@ -173,15 +173,15 @@ QUANTITIES = {row.name: row for row in ROWS}
 
 
 # A part's name, its number and, of a harmonic, what of it.
-PART = re.compile(r"(levels|edges)\[(\d+)\]|(harmonics)\[(\d+)\]\.(amplitude|phase)")
+PART = re.compile(r"(levels|edges)\[(\d+)\]|(harmonics|shaft_orders)\[(\d+)\]\.(amplitude|phase)")
 
 
 class Part(NamedTuple):
     """A scalar that is a part of a field."""
 
-    field: str  # levels, edges or harmonics
+    field: str  # levels, edges, harmonics or shaft_orders
     number: int  # which; of a harmonic its order
-    what: str  # amplitude or phase of a harmonic
+    what: str  # amplitude or phase of a harmonic or of a shaft's error
 
 
 def part_of(name: str) -> Part | None:
@@ -189,8 +189,8 @@ def part_of(name: str) -> Part | None:
     found = PART.fullmatch(name)
     if found is None:
         return None
-    level, i, harmonic, order, what = found.groups()
-    return Part(level or harmonic, int(i or order), what or "")
+    level, i, line, order, what = found.groups()
+    return Part(level or line, int(i or order), what or "")
 
 
 def part(name: str) -> Quantity | None:
@@ -203,9 +203,10 @@ def part(name: str) -> Quantity | None:
         return Quantity(name, "stiffness level {}", f"k_{i}", rf"k_{{{i}}}")
     if field == "edges":
         return Quantity(name, "start of stiffness level {}, in mesh periods", f"k_{i}", rf"k_{{{i}}}")
+    line, sign = (f"harmonic {i}", f"{i}") if field == "harmonics" else (f"shaft order {i}", f"s{i}")
     if what == "phase":
-        return Quantity(name, f"phase of harmonic {i} {{}}", f"phi_{i}", rf"\varphi_{{{i}}}", "rad")
-    return Quantity(name, f"amplitude of harmonic {i} {{}}", f"F_{i}", rf"F_{{{i}}}")
+        return Quantity(name, f"phase of {line} {{}}", f"phi_{sign}", rf"\varphi_{{{sign}}}", "rad")
+    return Quantity(name, f"amplitude of {line} {{}}", f"F_{sign}", rf"F_{{{sign}}}")
 
 
 def quantity(name: str) -> Quantity | None:

@@ -62,3 +62,26 @@ def test_mean_force_is_the_articles():
 def test_bad_input_is_named(name, value):
     with pytest.raises(ValueError, match=f"{name}.*got"):
         DRIVE.replace(**{name: value})
+
+
+def test_shaft_orders_go_with_the_drive():
+    """Micrometres over half the backlash; kept at other speeds, scaled there and back."""
+    drive = DRIVE.replace(shaft_orders=[(34, 30.0, 0.2), (54, 20.0)])
+    osc = drive.at_speed(3000.0).oscillator()
+    assert osc.shaft_orders == ((34, pytest.approx(0.6), 0.2, 1), (54, pytest.approx(0.4), 0.0, 1))
+    assert osc.mesh_periods == 918 and osc.period == pytest.approx(918 * osc.mesh_period)
+    back = drive.with_oscillator(osc)
+    assert [each.amplitude for each in back.shaft_orders] == pytest.approx([30.0, 20.0], rel=1e-14)
+    assert DRIVE.with_oscillator(osc.replace(shaft_orders=())).shaft_orders == ()
+    with pytest.raises(ValueError, match=r"shaft_orders\[0\] amplitude must be a finite number at least 0, got -1.0"):
+        DRIVE.replace(shaft_orders=[(34, -1.0)])
+
+
+def test_impacts_per_second_count_the_mesh_periods():
+    """Rattle in five of twenty mesh periods: a quarter of an impact a mesh period."""
+    osc = gp.Oscillator(
+        mean_force=0.01, error_amplitude=0.005, damping_ratio=0.03, mesh_frequency=1.5, shaft_orders=[(20, 1.0)]
+    )
+    drive = DRIVE.replace(pinion_teeth=20).with_oscillator(osc)
+    loads = gp.design.measure_motion(drive, gp.steady_state(drive.oscillator(), 1.02))
+    assert loads["impact_rate"] == pytest.approx(5 * drive.pinion_speed_rpm / 60, rel=1e-9)

@@ -7,7 +7,15 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair.teeth import GearBlank, ToothProfile, error_harmonics, mesh_stiffness, profile_error, tip_relief
+from gearpair.teeth import (
+    GearBlank,
+    ToothProfile,
+    error_harmonics,
+    error_orders,
+    mesh_stiffness,
+    profile_error,
+    tip_relief,
+)
 from gearpair.teeth.blank import teeth_moment_mm4
 
 PAIR = gp.SpurPair(pinion_teeth=25, gear_teeth=71, module_mm=2.0, pinion_shift=0.3, gear_shift=0.1)
@@ -238,3 +246,29 @@ def test_harmonics_give_the_error_back():
 def test_bad_input_gets_a_sentence(call, sentence):
     with pytest.raises(ValueError, match=sentence):
         call()
+
+
+def test_an_error_measured_over_a_revolution_is_taken_whole():
+    """Every line of the series, of the mesh or of the shaft: the oscillator's error is what was measured."""
+    teeth, per_mesh = 24, 16
+    measured = np.random.default_rng(7).normal(size=teeth * per_mesh)
+    harmonics, orders = error_orders(measured, teeth)
+    assert [each.order for each in harmonics] == list(range(1, per_mesh // 2))
+    assert len(harmonics) + len(orders) == len(measured) // 2 - 1 and {each.teeth for each in orders} == {teeth}
+    drive = DRIVE.replace(transmission_error_um=harmonics, shaft_orders=orders, pinion_speed_rpm=3000.0)
+    osc = drive.oscillator()
+    tau = osc.period * np.arange(len(measured)) / len(measured)
+    turn = np.fft.rfft(measured)
+    turn[0] = turn[-1] = 0.0  # the mean, and half the sampling rate, which has no phase
+    drawn = osc.error(tau) * drive.half_backlash_m * 1e6
+    assert np.allclose(drawn, np.fft.irfft(turn), rtol=0.0, atol=1e-11)
+    least = error_orders(measured, teeth, least_um=0.1)
+    assert all(each.amplitude >= 0.1 for part in least for each in part)
+    few = error_orders(measured, teeth, most=5)
+    sizes = sorted((each.amplitude for part in (harmonics, orders) for each in part), reverse=True)
+    assert sorted((each.amplitude for part in few for each in part), reverse=True) == sizes[:5]
+
+
+def test_run_out_of_a_pair_from_its_drawing():
+    drive = gp.GearDrive.from_pair(PAIR, **GIVEN, shaft_orders=[(25, 20.0)])
+    assert drive.replace(addendum=1.05).oscillator().shaft_orders == ((25, 0.5, 0.0, 1),)

@@ -145,6 +145,7 @@ CALLS = {
     },
     "teeth": {
         "error_harmonics": lambda: {"error_um": np.sin(np.arange(16.0)), "n": 2},
+        "error_orders": lambda: {"error_um": np.sin(np.arange(16.0)), "teeth": 4},
         "iso_stiffness": lambda: {"pair": gp.SpurPair()},
         "mesh_stiffness": lambda: {"pair": gp.SpurPair(), "n_phases": 10},
         "profile_error": lambda: {"mesh": made("mesh"), "deviation_um": np.zeros_like(made("mesh").path)},

@@ -1,4 +1,6 @@
-"""The mesh period of one oscillator cut into cells, with everything that does not depend on the state.
+"""The base period of one oscillator cut into cells, with everything that does not depend on the state.
+
+That is the mesh period, or as many of them as an error of a shaft takes to repeat.
 
 On a cell that stays in one region (coast-side contact, free flight, drive-side contact) the state at
 its end is an affine function of the state at its start. These maps, with the constants that certify
@@ -32,7 +34,7 @@ from .closed_form import (
 # SX |x - s| + SV |v| + S0 >= max |w^4 X''''| / 384 over the cell.
 XX, XV, X0, VX, VV, V0, SX, SV, S0 = range(9)
 COLUMNS = 9
-# Columns of `Cells.clock`: width of the cell, its start in mesh periods, sine and cosine of the forcing there.
+# Columns of `Cells.clock`: width of the cell, its start in base periods, sine and cosine of the forcing there.
 WIDTH, START, SINE, COSINE = range(4)
 
 
@@ -53,6 +55,7 @@ class Coefficients(NamedTuple):
     edges: Array  # (n_levels + 1,), from 0 to 1
     levels: Array  # (n_levels,)
     harmonics: Array  # (n, 3): order, amplitude and phase of what the error has besides its first harmonic
+    mesh_periods: int  # that the base period has; orders are multiples of its inverse
 
 
 class Cells(NamedTuple):
@@ -60,8 +63,9 @@ class Cells(NamedTuple):
 
     force: float
     amplitude: float  # A = F_ah Omega^2
-    phase_per_period: float  # 2 pi, of the forcing's first harmonic
-    start_force: float  # the whole forcing at the start of a mesh period
+    mesh_periods: int  # that the base period has
+    phase_per_period: float  # of the forcing's first harmonic: 2 pi for each
+    start_force: float  # the whole forcing at the start of a base period
     start_rate: float  # and its rate over Omega
     clock: Array  # (n_cells, 4)
     level: Integers  # (n_cells,) index of the stiffness level
@@ -102,26 +106,28 @@ def count_cells(p: Coefficients, level: int) -> int:
 
 @allocating_kernel
 def build_cells(p: Coefficients) -> Cells:
-    """Cut the mesh period of oscillator `p` into cells."""
+    """Cut the base period of oscillator `p` into cells."""
     cells, ends = empty_cells(p), np.empty((2, 5, 2))
-    j, b = 0, 0
+    cells_per_mesh, blocks_per_mesh = cells.level.size // p.mesh_periods, cells.block_width.size // p.mesh_periods
+    first_cell, first_block = 0, 0
     for i in range(p.levels.size):
-        n = count_cells(p, i)
-        per_block = n // count_blocks(p, i)
+        n, n_blocks = count_cells(p, i), count_blocks(p, i)
         span = (p.edges[i + 1] - p.edges[i]) / n
-        width = span * cells.period
+        width = span * (2.0 * np.pi / p.mesh_frequency)
         fill_basis(0.0, p.flight_damping, p.mesh_frequency, width, cells.bases[i, 0])
         fill_basis(p.levels[i], p.damping_ratio, p.mesh_frequency, width, cells.bases[i, 1])
         for contact in range(2):
             fill_ends(cells.bases[i, contact], width, ends[contact])
             for k in range(5):
                 cells.fourths[i, contact, k] = fourth_derivative_bound(cells.bases[i, contact, k], 1.0)
-        for m in range(n):
-            fill_cell(p, cells, j, i, p.edges[i] + m * span, width, ends)
-            j += 1
-            if (m + 1) % per_block == 0:
-                fill_block(cells, b, j - per_block, j)
-                b += 1
+        for turn in range(p.mesh_periods):
+            j = turn * cells_per_mesh + first_cell
+            for m in range(n):
+                fill_cell(p, cells, j + m, i, turn, p.edges[i] + m * span, width, ends)
+            for b in range(n_blocks):
+                at = j + b * (n // n_blocks)
+                fill_block(cells, turn * blocks_per_mesh + first_block + b, at, at + n // n_blocks)
+        first_cell, first_block = first_cell + n, first_block + n_blocks
     return cells
 
 
@@ -131,8 +137,8 @@ def empty_cells(p: Coefficients) -> Cells:
     n_levels = p.levels.size
     n_cells, n_blocks = 0, 0
     for i in range(n_levels):
-        n_cells += count_cells(p, i)
-        n_blocks += count_blocks(p, i)
+        n_cells += p.mesh_periods * count_cells(p, i)
+        n_blocks += p.mesh_periods * count_blocks(p, i)
     amplitude = p.error_amplitude * p.mesh_frequency**2
     force, rate = p.mean_force + amplitude * np.sin(p.error_phase), amplitude * np.cos(p.error_phase)
     for h in p.harmonics:
@@ -143,7 +149,8 @@ def empty_cells(p: Coefficients) -> Cells:
     return Cells(
         p.mean_force,
         amplitude,
-        2.0 * np.pi,
+        p.mesh_periods,
+        2.0 * np.pi * p.mesh_periods,
         force,
         rate,
         np.empty((n_cells, 4)),
@@ -156,7 +163,7 @@ def empty_cells(p: Coefficients) -> Cells:
         np.empty(n_blocks + 1, np.int64),
         np.empty(n_blocks),
         np.empty((n_blocks, 3, COLUMNS)),
-        2.0 * np.pi / p.mesh_frequency,
+        2.0 * np.pi / p.mesh_frequency * p.mesh_periods,
         p.damping_ratio,
         p.flight_damping,
         ESCAPE_RADIUS if contact_growth(p) > 1.0 else np.inf,
@@ -164,11 +171,13 @@ def empty_cells(p: Coefficients) -> Cells:
 
 
 @inlined_kernel
-def fill_cell(p: Coefficients, cells: Cells, j: int, level: int, start: float, width: float, ends: Array) -> None:
-    """Cell `j`, from `start` (in mesh periods) on, of a stiffness level: `ends` (2, 5, 2) are its `fill_ends`."""
-    theta = cells.phase_per_period * start + p.error_phase
+def fill_cell(
+    p: Coefficients, cells: Cells, j: int, level: int, turn: int, start: float, width: float, ends: Array
+) -> None:
+    """Cell `j` of a stiffness level, from `start` in mesh period `turn` on: `ends` (2, 5, 2) are its `fill_ends`."""
+    theta = 2.0 * np.pi * start + p.error_phase
     cells.clock[j, WIDTH] = width
-    cells.clock[j, START] = start
+    cells.clock[j, START] = (turn + start) / p.mesh_periods
     cells.clock[j, SINE] = cells.amplitude * np.sin(theta)
     cells.clock[j, COSINE] = cells.amplitude * np.cos(theta)
     cells.level[j] = level
@@ -176,7 +185,7 @@ def fill_cell(p: Coefficients, cells: Cells, j: int, level: int, start: float, w
         for contact in range(2):
             kappa, row = p.levels[level] * contact, cells.forced[j, contact]
             zeta = p.damping_ratio if contact == 1 else p.flight_damping
-            fill_forced(kappa, zeta, p.mesh_frequency, width, start, p.harmonics, row)
+            fill_forced(kappa, zeta, p.mesh_frequency, width, turn + start, p.harmonics, row)
             cells.forced_fourths[j, contact] = fourth_derivative_bound(row, 1.0)
     for region in range(3):
         fill_map(cells, j, region, ends[abs(region - 1)])

@@ -25,7 +25,9 @@ def describe_orbit(cells: Cells, orbit: Orbit, work: Scratch, out: Settled, i: i
     out.status[i], out.period[i] = PERIODIC, period
     derivative(cells, orbit.x, orbit.v, period, m, work.series)
     damping = mean_damping(cells, orbit.x, orbit.v, period, work.series, work.measures)
-    fill_exponents(np.log(spectral_radius(m)) / (period * cells.period), damping, 0.0, out.exponents[i])
+    radius = spectral_radius(m)  # after very long it may be below all floats: then damping alone is told
+    rate = np.log(radius) / (period * cells.period) if radius > 0.0 else -damping
+    fill_exponents(rate, damping, 0.0, out.exponents[i])
     x, v = smallest_point(cells, orbit.x, orbit.v, period, work.series)
     begin_reach(work.reach, x)
     walk(cells, x, v, period, work.series, None, work.reach)

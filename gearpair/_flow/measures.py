@@ -63,6 +63,7 @@ def contact_stiffness(cells: Cells, j: int) -> float:
 def finish_measures(measures: Measures, cells: Cells, n_periods: int) -> None:
     """Turn sums over `n_periods` into what a mesh period has, and moments into mean and root mean square."""
     row, span = measures.row, n_periods * cells.period
+    n_periods *= cells.mesh_periods
     for side in range(2):
         row[SHARE + side] /= span
         row[IMPULSE + side] /= n_periods

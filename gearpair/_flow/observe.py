@@ -8,8 +8,9 @@ from .closed_form import TERMS
 from .measures import HIGHEST, LOWEST, SHARE, Measures, finish_measures
 from .reach import begin_reach
 from .records import Samples
+from .segment import first_region
 from .tangent import set_identity
-from .walk import OK, Details, inlined_walk, walk
+from .walk import OK, Details, Place, walk, walk_mesh_period
 
 
 @kernel
@@ -52,17 +53,23 @@ def record(
 def stretch(
     cells: Cells, x: float, v: float, n_periods: int, series: Array, q: Array, reach: Array
 ) -> tuple[int, float, float, float]:
-    """`walk`, turning the first column of `q` (2, 2) with the flow: (status, x, v, log of its growth)."""
-    status, total = OK, 0.0
+    """`walk`, turning the first column of `q` (2, 2) with the flow: (status, x, v, log of its growth).
+
+    It is made a unit vector again after every mesh period: over a base period of many it would leave the floats' range.
+    """
+    total = 0.0
     for _ in range(n_periods):
-        status, x, v = inlined_walk(cells, x, v, 1, series, q, reach)
-        if status != OK:
-            break
-        length = np.hypot(q[0, 0], q[1, 0])
-        q[0, 0], q[1, 0] = q[0, 0] / length, q[1, 0] / length
-        q[0, 1], q[1, 1] = -q[1, 0], q[0, 0]
-        total += np.log(length)
-    return status, x, v, total
+        place = Place(x, v, first_region(cells, x, v), 0)
+        for turn in range(cells.mesh_periods):
+            status, place = walk_mesh_period(cells, 0, turn, place, series, q, reach, None)
+            x, v = place.x, place.v
+            if status != OK:
+                return status, x, v, total
+            length = np.hypot(q[0, 0], q[1, 0])
+            q[0, 0], q[1, 0] = q[0, 0] / length, q[1, 0] / length
+            q[0, 1], q[1, 1] = -q[1, 0], q[0, 0]
+            total += np.log(length)
+    return OK, x, v, total
 
 
 @allocating_kernel

@@ -153,7 +153,7 @@ def integrate(p: Coefficients, x: float, v: float, n_periods: int, steps: Steps,
 
     Fills ``points`` (m, 2) with the last m section points ``tau = n T``, from the start (n = 0) to the end.
     """
-    period = 2.0 * np.pi / p.mesh_frequency
+    period = 2.0 * np.pi / p.mesh_frequency * p.mesh_periods
     end, rtol, atol = n_periods * period, steps.rtol, steps.atol
     max_step = 2.0 * np.pi / (p.mesh_frequency * steps.per_period) if steps.per_period > 0 else np.inf
     slopes = np.empty((2, 7))
@@ -200,11 +200,14 @@ def integrate(p: Coefficients, x: float, v: float, n_periods: int, steps: Steps,
 
 @kernel
 def tabulate(p: Coefficients, n_steps: int, forces: Array, levels: Array) -> None:
-    """Force and stiffness at every half step of a mesh period, shape (2 n_steps,); the period's end is its start."""
+    """Force and stiffness at every half step of a base period, 2 `n_steps` a mesh period; its end is its start."""
     half = np.pi / (p.mesh_frequency * n_steps)
     level = 0
-    for j in range(2 * n_steps):
-        while level + 1 < p.levels.size and p.edges[level + 1] <= j / (2.0 * n_steps):
+    for j in range(2 * n_steps * p.mesh_periods):
+        place = j % (2 * n_steps)
+        if place == 0:
+            level = 0
+        while level + 1 < p.levels.size and p.edges[level + 1] <= place / (2.0 * n_steps):
             level += 1
         forces[j], levels[j] = acceleration(p, j * half, 0.0, 0.0), p.levels[level]
 
@@ -215,7 +218,8 @@ def integrate_fixed(p: Coefficients, x: float, v: float, n_periods: int, n_steps
 
     The steps begin with the mesh period and take no notice of switches and of contacts.
     """
-    forces, levels = np.empty(2 * n_steps), np.empty(2 * n_steps)
+    in_all = n_steps * p.mesh_periods
+    forces, levels = np.empty(2 * in_all), np.empty(2 * in_all)
     tabulate(p, n_steps, forces, levels)
     h = 2.0 * np.pi / (p.mesh_frequency * n_steps)
     first_kept = n_periods + 1 - points.shape[0]
@@ -226,8 +230,8 @@ def integrate_fixed(p: Coefficients, x: float, v: float, n_periods: int, n_steps
             return COMPLETE
         if not abs(x) + abs(v) < ESCAPE:
             return ESCAPED
-        for i in range(n_steps):
-            j0, j1, j2 = 2 * i, 2 * i + 1, (2 * i + 2) % (2 * n_steps)
+        for i in range(in_all):
+            j0, j1, j2 = 2 * i, 2 * i + 1, (2 * i + 2) % (2 * in_all)
             a1 = forces[j0] - 2.0 * damping_at(p, x) * v - levels[j0] * deflection(x)
             x2, v2 = x + 0.5 * h * v, v + 0.5 * h * a1
             a2 = forces[j1] - 2.0 * damping_at(p, x2) * v2 - levels[j1] * deflection(x2)

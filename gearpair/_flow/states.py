@@ -34,6 +34,7 @@ class Lanes(NamedTuple):
     own: Integers  # (n,) row of the lane's oscillator
     starts: Array  # (n, 2)
     n_transient: Integers  # (n,)
+    mesh_periods: int  # that the base period of every oscillator has
 
 
 class Settled(NamedTuple):
@@ -96,7 +97,9 @@ class Course(NamedTuple):
 def coefficients_of(lanes: Lanes, i: int) -> Coefficients:
     """Oscillator `i` of a batch."""
     s = lanes.scalars[i]
-    return Coefficients(s[0], s[1], s[2], s[3], s[4], s[5], lanes.edges[i], lanes.levels[i], lanes.harmonics[i])
+    return Coefficients(
+        s[0], s[1], s[2], s[3], s[4], s[5], lanes.edges[i], lanes.levels[i], lanes.harmonics[i], lanes.mesh_periods
+    )
 
 
 @allocating_kernel

@@ -1,4 +1,4 @@
-"""The walk: one oscillator's motion over whole mesh periods, cell by cell, event by event. The only loop of its kind.
+"""The walk: one oscillator's motion over whole base periods, cell by cell, event by event. The only loop of its kind.
 
 What is gathered on the way is handed over as accumulators, each None where it is not asked for: the compiler then
 leaves it out. ``m`` is the monodromy matrix (`tangent`), ``reach`` the range of X with the contacts (`reach`); what
@@ -71,7 +71,7 @@ def walk(
     reach: Array | None = None,
     details: Details | None = None,
 ) -> tuple[int, float, float]:
-    """The state after `n_periods` mesh periods from (x, v) at the start of one: (status, x, v).
+    """The state after `n_periods` base periods from (x, v) at the start of one: (status, x, v).
 
     Stops early, with the state reached, when the status is not OK. `series` (TERMS,) is scratch; `m` (2, 2) is
     multiplied by the monodromy matrix of the span, `reach` (4,) widened, `details` gathered.
@@ -93,26 +93,47 @@ def inlined_walk(
     """`walk` for kernels that ask for one period at a time: a call, two dozen arrays, costs a tenth of a period."""
     place = Place(x, v, first_region(cells, x, v), 0)
     for period in range(n_periods):
-        place = Place(place.x, place.v, place.region, 0)
-        if details is None:
-            for b in range(cells.block_width.size):
-                row = cells.block_maps[b, place.region + 1]
-                certain, x, v, low, high = follow_row(row, cells.block_width[b], place.x, place.v, place.region)
-                if certain and holds(reach, low, high):
-                    apply_map(m, row)
-                    place = Place(x, v, place.region, place.events)
-                    continue
-                span = cells.blocks[b], cells.blocks[b + 1]
-                status, place = walk_cells(cells, period, span, place, series, m, reach, details)
-                if status != OK:
-                    return status, place.x, place.v
-        else:
-            status, place = walk_cells(cells, period, (0, cells.level.size), place, series, m, reach, details)
+        for turn in range(cells.mesh_periods):
+            status, place = walk_mesh_period(cells, period, turn, place, series, m, reach, details)
             if status != OK:
                 return status, place.x, place.v
-        if not abs(place.x) + abs(place.v) <= cells.escape_radius:
-            return ESCAPED, place.x, place.v
     return OK, place.x, place.v
+
+
+@inlined_kernel
+def walk_mesh_period(
+    cells: Cells,
+    period: int,
+    turn: int,
+    place: Place,
+    series: Array,
+    m: Array | None,
+    reach: Array | None,
+    details: Details | None,
+) -> tuple[int, Place]:
+    """Mesh period `turn` of a base period: (status, place)."""
+    place = Place(place.x, place.v, place.region, 0)
+    if details is None:
+        n = cells.block_width.size // cells.mesh_periods
+        for b in range(turn * n, (turn + 1) * n):
+            row = cells.block_maps[b, place.region + 1]
+            certain, x, v, low, high = follow_row(row, cells.block_width[b], place.x, place.v, place.region)
+            if certain and holds(reach, low, high):
+                apply_map(m, row)
+                place = Place(x, v, place.region, place.events)
+                continue
+            span = cells.blocks[b], cells.blocks[b + 1]
+            status, place = walk_cells(cells, period, span, place, series, m, reach, details)
+            if status != OK:
+                return status, place
+    else:
+        n = cells.level.size // cells.mesh_periods
+        status, place = walk_cells(cells, period, (turn * n, (turn + 1) * n), place, series, m, reach, details)
+        if status != OK:
+            return status, place
+    if not abs(place.x) + abs(place.v) <= cells.escape_radius:
+        return ESCAPED, place
+    return OK, place
 
 
 @inlined_kernel

@@ -64,7 +64,7 @@ class Cycle:
 def describe_cycle(p: Coefficients, x: float, v: float, period: int) -> Cycle:
     """The cycle of `period` mesh periods through (x, v), which is closed as far as its residual says."""
     points, monodromy = np.empty((period, 2)), np.empty((2, 2))
-    found = Extrema(np.empty((MAX_EXTREMA_PER_PERIOD * period, 2)), np.zeros(3, np.int64))
+    found = Extrema(np.empty((MAX_EXTREMA_PER_PERIOD * period * p.mesh_periods, 2)), np.zeros(3, np.int64))
     status, residual = cycle_at(p, x, v, points, monodromy, found)
     n, drive, coast = found.counts.tolist()
     extrema = found.rows[:n].copy()
@@ -109,7 +109,10 @@ class OrbitProblem:
             if self.osc.flight_damping is None and "damping_ratio" in changes:  # it is the one in contact
                 changes.setdefault("flight_damping", changes["damping_ratio"])
             return self.osc.coefficients._replace(**changes)
-        return self.oscillator(u).coefficients
+        osc = self.oscillator(u)
+        if osc.mesh_periods != self.osc.mesh_periods:
+            raise ValueError("an error of a shaft has become 0, and the base period another one")
+        return osc.coefficients
 
     def equations(self, u: Vector) -> tuple[Vector, NDArray[np.float64]] | None:
         """Residual and Jacobian; None where the motion cannot be followed."""
@@ -117,7 +120,7 @@ class OrbitProblem:
         try:
             here = self.coefficients(u)
             beside = tuple(self.coefficients(u + side) for step in np.diag(steps)[2:] for side in (step, -step))
-        except ValueError:  # a wave parameter out of range
+        except ValueError:  # a part's parameter out of range
             return None
         residual, jacobian = np.empty(2), np.empty((2, len(u)))
         status = equations_at(here, beside, u[0], u[1], self.period, steps[2:], residual, jacobian)

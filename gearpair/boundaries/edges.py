@@ -49,7 +49,7 @@ class EdgeState:
     orbit : PeriodicOrbit or None
         The saddle, exact to rounding; None unless periodic.
     tracked : int
-        Mesh periods that the boundary was followed for.
+        Base periods that the boundary was followed for.
     points : ndarray of float, shape (tracked + 1, 2)
         X and X' on the section, from the boundary between the two starts on, each within 1e-7 of the boundary.
     exponent : float
@@ -91,7 +91,7 @@ def edge_state(
     a, b : array_like of float, shape (2,), or SteadyState or PeriodicOrbit
         X and X' of two starts that settle on different motions, or two such motions.
     n_periods : int
-        Mesh periods at most that the boundary is followed for.
+        Base periods at most that the boundary is followed for.
     **settling
         See `gearpair.motion.SettleOptions`; `max_period` is that of the boundary's motion too.
 

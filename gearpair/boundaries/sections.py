@@ -17,13 +17,13 @@ from gearpair.stiffness import StiffnessWave
 
 
 class PeriodMap(NamedTuple):
-    """The map over mesh periods, forward or backward in time."""
+    """The map over base periods, forward or backward in time."""
 
     cells: Cells
     way: float  # 1 forward, -1 backward
 
     def __call__(self, points: NDArray[np.float64], n: int) -> NDArray[np.float64]:
-        """The states `n` mesh periods from `points` (m, 2) on; nan where the motion cannot be followed."""
+        """The states `n` base periods from `points` (m, 2) on; nan where the motion cannot be followed."""
         ends, status = self.followed(points, n)
         ends[status != OK] = np.nan
         return ends
@@ -59,15 +59,15 @@ def backward(osc: Oscillator) -> PeriodMap:
 def backward_map(
     osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The state `n` mesh periods before (x, v) on the section: the inverse of `gearpair.stroboscopic_map`.
+    """The state `n` base periods before (x, v) on the section: the inverse of `gearpair.stroboscopic_map`.
 
     Parameters
     ----------
     osc : Oscillator
     x, v : array_like of float
-        X and X' at the start of a mesh period; broadcast against each other.
+        X and X' at the start of a base period; broadcast against each other.
     n : int
-        Mesh periods, at least 0.
+        Base periods, at least 0.
 
     Returns
     -------
@@ -105,7 +105,8 @@ def at_phase(osc: Oscillator, phase: float) -> Oscillator:
     ----------
     osc : Oscillator
     phase : float
-        In mesh periods from the section of `osc` on, from 0 to below 1.
+        In mesh periods from the section of `osc` on, from 0 to below 1; with `shaft_orders` to below as many as the
+        base period has.
 
     Examples
     --------
@@ -113,7 +114,8 @@ def at_phase(osc: Oscillator, phase: float) -> Oscillator:
     >>> [round(edge, 2) for edge in at_phase(gp.Oscillator(), 0.5).stiffness.edges]  # 0.68, and the old section
     [0.0, 0.18, 0.5]
     """
-    phase = check_number("phase", phase, at_least=0.0, below=1.0)
+    turned = check_number("phase", phase, at_least=0.0, below=float(osc.mesh_periods))
+    phase = turned % 1.0
     edges, levels = osc.stiffness.edges, osc.stiffness.levels
     k = int(np.searchsorted(edges, phase, side="right")) - 1
     starts = [0.0, *(edge - phase for edge in edges[k + 1 :]), *(1.0 - phase + edge for edge in edges[: k + 1])]
@@ -129,4 +131,8 @@ def at_phase(osc: Oscillator, phase: float) -> Oscillator:
         mesh_frequency=osc.mesh_frequency,
         stiffness=StiffnessWave(tuple(e for e, _ in pieces), tuple(level for _, level in pieces)),
         harmonics=tuple(Harmonic(h.order, h.amplitude, h.phase + h.order * angle) for h in osc.harmonics),
+        shaft_orders=tuple(
+            each._replace(phase=each.phase + 2.0 * np.pi * each.order * turned / each.teeth)
+            for each in osc.shaft_orders
+        ),
     )

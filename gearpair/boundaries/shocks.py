@@ -94,7 +94,7 @@ def critical_shock(
     kick : {"any", "velocity"}
         Whether X changes too, or X' alone, as by an impulse.
     n_phases : int
-        Phases of the mesh at which the kick may act; a motion of period n has n times as many moments.
+        Phases of the mesh at which the kick may act; a motion of n mesh periods has n times as many moments.
     n_directions : int
         Directions of a kick that are tried first, at least 2; of X' alone there are two, on rings that are nearer.
     largest : float
@@ -129,7 +129,7 @@ def critical_shock(
     largest = check_number("largest", largest, above=0.0)
     points = _points_over_cycle(osc, state, n_phases)
     phases = np.arange(len(points)) / n_phases
-    sections = [at_phase(osc, k / n_phases) for k in range(n_phases)]
+    sections = [at_phase(osc, k / n_phases) for k in range(n_phases * osc.mesh_periods)]
     angles = (
         np.array([0.5, 1.5]) * np.pi if kick == "velocity" else 2.0 * np.pi * np.arange(n_directions) / n_directions
     )
@@ -137,14 +137,14 @@ def critical_shock(
     radii = largest * SMALLEST ** (1.0 - np.arange(rings + 1) / rings)
     kicks = np.full((len(points), 2), np.nan)
     for k, point in enumerate(points):
-        search = Search(Sides(sections[k % n_phases], point, settling), point)
+        search = Search(Sides(sections[k % len(sections)], point, settling), point)
         kicks[k] = search.smallest(angles, radii, turn)
     sizes = np.hypot(*kicks.T)
     sizes[np.isnan(sizes)] = np.inf
     best = int(np.argmin(sizes))
     if np.isinf(sizes[best]):
         return CriticalShock(osc, np.inf, kicks[best], phases[best], points[best], None, phases, sizes, kicks)
-    section = sections[best % n_phases]
+    section = sections[best % len(sections)]
     change = Search(Sides(section, points[best], settling), points[best]).refined(kicks[best], turn, FINE)
     beyond = points[best] + (1.0 + 1e-9) * change
     leads_to = steady_state(section, *beyond.tolist(), **settling)
@@ -153,7 +153,7 @@ def critical_shock(
 
 
 def _points_over_cycle(osc: Oscillator, state: SteadyState | PeriodicOrbit, n_phases: int) -> NDArray[np.float64]:
-    """X and X' of a stable motion at every phase of its cycle, (period * n_phases, 2); or a ValueError."""
+    """X and X' of a stable motion at every phase of its cycle, `n_phases` a mesh period, (n, 2); or a ValueError."""
     stable = state.stable if isinstance(state, PeriodicOrbit) else state.period is not None
     if not stable or state.period is None:
         raise ValueError(f"state must be periodic and stable, got {state.motion or state}")

@@ -7,7 +7,8 @@ import numpy as np
 from gearpair._checks import checked
 from gearpair.oscillator import Oscillator
 
-N_SAMPLES = 4096  # over the mesh period; half as many harmonics
+# Over a mesh period, with half as many harmonics; of a base period of many as few as hold the highest order.
+N_SAMPLES, FEWEST, MOST_IN_ALL = 4096, 512, 2**17
 
 
 @dataclass(frozen=True)
@@ -58,21 +59,26 @@ def linear_response(osc: Oscillator) -> LinearResponse:
     >>> round(linear_response(osc).load_factor, 9)  # 1 + 0.002 / 0.1 / (2 zeta)
     1.2
     """
-    mean, omega = osc.stiffness.mean, osc.mesh_frequency
-    order = np.arange(N_SAMPLES // 2)
-    wave = osc.stiffness.harmonics(len(order) - 1)
+    mean, omega, whole = osc.stiffness.mean, osc.mesh_frequency, osc.mesh_periods
+    per_mesh = max(FEWEST, min(N_SAMPLES, MOST_IN_ALL // whole // 2 * 2))
+    n_samples = per_mesh * whole
+    order = np.arange(n_samples // 2) / whole
+    wave = np.zeros(len(order), complex)
+    wave[::whole] = osc.stiffness.harmonics(per_mesh // 2 - 1)
     wave[0] = 0.0
     force, error = np.zeros(len(order), complex), np.zeros(len(order), complex)
-    for n, amplitude, phase in osc.all_harmonics:
-        part = -0.5j * amplitude * np.exp(1j * phase)
-        error[n] += part
-        force[n] += part * (n * omega) ** 2
+    for n, amplitude, phase in osc.error_lines:
+        part, line = -0.5j * amplitude * np.exp(1j * phase), round(n * whole)
+        error[line] += part
+        force[line] += part * (n * omega) ** 2
     static = osc.mean_force / mean
     response = (force - wave * static) / (mean - (order * omega) ** 2 + 2j * osc.damping_ratio * order * omega)
     response[0] = 0.0
-    moved = np.fft.irfft(response + error, N_SAMPLES, norm="forward")
-    vibration = np.fft.irfft(response, N_SAMPLES, norm="forward")
-    stiffness = osc.stiffness(np.arange(N_SAMPLES) / N_SAMPLES)  # itself: its series would overshoot at the steps
+    moved = np.fft.irfft(response + error, n_samples, norm="forward")
+    vibration = np.fft.irfft(response, n_samples, norm="forward")
+    stiffness = osc.stiffness(
+        np.arange(n_samples) % per_mesh / per_mesh
+    )  # itself: its series would overshoot at the steps
     mesh_force = osc.mean_force + mean * vibration + (stiffness - mean) * static
     sign = 1.0 if osc.mean_force >= 0.0 else -1.0
     largest, smallest = float((sign * mesh_force).max()), float((sign * mesh_force).min())

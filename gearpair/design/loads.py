@@ -48,8 +48,8 @@ def measure_motion(drive: GearDrive, state: SteadyState) -> dict[str, float]:
     if state.status in (Status.ESCAPED, Status.CAPPED):
         return dict.fromkeys(MEASURES, np.nan)
     osc, unit_um = state.oscillator, drive.half_backlash_m * 1e6
-    n_periods = state.period or CHAOTIC_PERIODS
-    found = impact_measures(state, n_periods=n_periods)
+    n_periods = state.period or osc.base_periods(CHAOTIC_PERIODS)
+    found = impact_measures(state, n_periods=CHAOTIC_PERIODS)
     x, v = state.points[0].tolist()
     motion = trajectory(osc, x, v, n_periods, samples_per_period=SAMPLES_PER_PERIOD)
     error = (motion.x + osc.error(motion.tau))[:-1] * unit_um

@@ -54,7 +54,8 @@ def survival(
     x, v : array_like of float
         X and X' at the start of a mesh period; broadcast against each other.
     n_periods : int
-        Mesh periods that each start is watched for, unless it is captured before.
+        Mesh periods that each start is watched for, unless it is captured before; rounded up to whole base periods, as
+        is `discard`.
     discard : int, optional
         Mesh periods that do not count: what is captured so soon went straight there and belongs to no transient.
         `gearpair.motion.transient_periods` when not given.
@@ -105,6 +106,7 @@ def survival(
     confidence = check_number("confidence", confidence, above=0.0, below=1.0)
     if discard >= n_periods:
         raise ValueError(f"n_periods must be more than the {discard} that are discarded, got {n_periods}")
+    n_periods, discard = (osc.base_periods(each) * osc.mesh_periods for each in (n_periods, discard))
     known, watched, later = watched_starts(osc, starts, n_periods, progress=progress)
     raise_if_capped(watched.status, starts)
     gone = (watched.owner >= 0) | (watched.status == ESCAPED)
@@ -172,14 +174,15 @@ def watched_starts(
 ) -> tuple[Known, Watched, Settled]:
     """Watch starts (n, 2) until they are captured: the attractors, where each has come to, what the others become.
 
+    All periods are mesh periods, rounded up to whole base periods.
     The last has one row for each start that was not captured, settled from where it has come to.
     """
     settings = replace(MANY, n_watch=0).whole_cycles()  # the watch is this function's own
     known = nothing_known(settings)
     known = joined(osc, known, settle_batch([osc], starts[scouts(len(starts))], settings, known=known))
-    n = len(starts)
+    n, n_periods, first_look = len(starts), osc.base_periods(n_periods), osc.base_periods(FIRST_LOOK)
     watched = Watched(np.full(n, OK), np.full(n, -1), np.zeros(n, np.int64), starts.copy())
-    done, until = 0, min(FIRST_LOOK, n_periods)
+    done, until = 0, min(first_look, n_periods)
     while True:
         _watch(osc, watched, until - done, _neighbourhoods(known), progress)
         left = np.flatnonzero((watched.owner < 0) & (watched.status == OK))
@@ -190,7 +193,7 @@ def watched_starts(
             known, done = more, 0
             watched.points[left], watched.periods[left] = starts[left], 0
         elif until == n_periods:
-            return known, watched, later
+            return known, watched._replace(periods=watched.periods * osc.mesh_periods), later
         else:
             done, until = until, min(NEXT_LOOK * until, n_periods)
 
@@ -208,13 +211,17 @@ def _neighbourhoods(known: Known) -> NDArray[np.float64]:
 def _watch(
     osc: Oscillator, watched: Watched, n_periods: int, neighbourhoods: NDArray[np.float64], progress: bool
 ) -> None:
-    """Let motions go on for `n_periods` more or until they are captured, in spans that Ctrl-C may come between."""
-    n, spans = len(watched.status), [min(AT_ONCE, n_periods - done) for done in range(0, n_periods, AT_ONCE)]
-    text = f"at most {n * float(n_periods):.1e} mesh periods"
+    """Let motions go on for `n_periods` more or until they are captured, in spans that Ctrl-C may come between.
+
+    These are base periods.
+    """
+    n, whole, at_once = len(watched.status), osc.mesh_periods, osc.base_periods(AT_ONCE)
+    spans = [min(at_once, n_periods - done) for done in range(0, n_periods, at_once)]
+    text = f"at most {n * whole * float(n_periods):.1e} mesh periods"
     with tqdm(desc=text, total=n * len(spans), unit="span", disable=not progress) as bar:
         for span in spans:
             arguments = (osc.cells, neighbourhoods, span, watched)
-            on_all_cores(watch_starts, arguments, n, max(1, AT_ONCE // span), bar.update, longest=span)
+            on_all_cores(watch_starts, arguments, n, max(1, at_once // span), bar.update, longest=span * whole)
 
 
 def _survivor_variables(times: NDArray[np.float64], discard: int, n_periods: int) -> dict[str, Any]:

@@ -40,7 +40,8 @@ def chaotic_saddle(
     x, v : array_like of float
         X and X' at the start of a mesh period; broadcast against each other. The more, the more points.
     n_periods : int
-        Mesh periods that each start is watched for, unless it is captured before.
+        Mesh periods that each start is watched for, unless it is captured before; rounded up to whole base periods, as
+        are the other two.
     n_before : int
         Mesh periods that a motion gets to come near the saddle, along its stable manifold.
     n_after : int, optional
@@ -88,9 +89,10 @@ def chaotic_saddle(
         raise ValueError(f"n_periods must be at least n_before + n_after = {n_before + n_after}, got {n_periods}")
     _known, watched, _later = watched_starts(osc, starts, n_periods, progress=progress)
     raise_if_capped(watched.status, starts)
-    last = watched.periods - n_after  # the last mesh period of each that counts
-    used = last >= n_before
-    points = _points_between(osc, starts[used], n_before, last[used], n_points)
+    before = osc.base_periods(n_before)
+    last = watched.periods // osc.mesh_periods - osc.base_periods(n_after)  # the last base period of each that counts
+    used = last >= before
+    points = _points_between(osc, starts[used], before, last[used], n_points)
     lasting = (watched.owner < 0) & (watched.status == OK)
     facts = {"n_starts": len(starts), "n_used": int(used.sum()), "n_lasting": int((used & lasting).sum())}
     variables = {name: ("point", points[:, i], attributes(name)) for i, name in enumerate(("x", "v"))}
@@ -100,7 +102,7 @@ def chaotic_saddle(
 def _points_between(
     osc: Oscillator, starts: NDArray[np.float64], first: int, last: NDArray[np.int64], n_points: int
 ) -> NDArray[np.float64]:
-    """The section points of motions from mesh period `first` to each one's `last`, thinned out; shape (n, 2)."""
+    """The section points of motions from base period `first` to each one's `last`, thinned out; shape (n, 2)."""
     total = int((last - first + 1).sum())
     step = max(1, -(-total // n_points))
     found: list[NDArray[np.float64]] = []

@@ -125,7 +125,7 @@ def work_precision(
     """
     n_starts = check_count("n_starts", n_starts)
     motion = trajectory(osc, x, v, n_starts, n_transient=100, samples_per_period=1)
-    starts = np.column_stack([motion.x, motion.v])
+    starts = motion.section
     ends = np.column_stack(stroboscopic_map(osc, starts[:-1, 0], starts[:-1, 1]))
     first = (float(starts[0, 0]), float(starts[0, 1]))
     found: list[Precision] = []
@@ -184,7 +184,7 @@ def plain_sweep(
     points = np.empty((len(checked), n_samples, 2))
     for i, each in enumerate(oscillators):
         motion = trajectory(each, x, v, n_samples - 1, n_transient=n_transient, samples_per_period=1)
-        points[i, :, 0], points[i, :, 1] = motion.x, motion.v
+        points[i] = motion.section
         x, v = float(motion.x[-1]), float(motion.v[-1])
     return section_diagram(osc, {parameter: checked}, points, closeness, seeding="carry")
 

@@ -43,7 +43,7 @@ def runge_kutta_section(
     osc, x, v
         As in `gearpair.trajectory`.
     n_periods : int
-        Mesh periods of one uninterrupted integration.
+        Base periods of one uninterrupted integration.
     n_kept : int, optional
         The last points to keep, at most ``n_periods + 1``; all when not given.
     rtol, atol : float
@@ -52,7 +52,7 @@ def runge_kutta_section(
     Returns
     -------
     ndarray of float, shape (n_kept, 2)
-        X and X' at the mesh periods' starts, by the integrator's own quartic interpolant.
+        X and X' at the base periods' starts, by the integrator's own quartic interpolant.
 
     Raises
     ------
@@ -85,7 +85,7 @@ class DiagramOptions(TypedDict, total=False):
     Parameters
     ----------
     n_transient : int
-        Mesh periods discarded at each value, 500 when not given.
+        Base periods discarded at each value, 500 when not given.
     n_samples : int
         Section points kept per value, 128 when not given.
     closeness : float
@@ -238,7 +238,7 @@ class Integrator:
         x, v : float
             The start of all that do not carry on.
         n_discarded, n_kept : int
-            Mesh periods left out first, and section points kept after them.
+            Base periods left out first, and section points kept after them.
         chain : int
             Oscillators in a chain, a divisor of their number: each but the first of its chain starts where the one
             before it ended.
@@ -262,14 +262,15 @@ class Integrator:
     ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
         """As `sections`: points (n, n_kept, 2), how each integration ended (n,), calls of the right-hand side (n,)."""
         n, n_periods = len(oscillators), n_discarded + n_kept - 1
+        lanes = lanes_of(oscillators, np.broadcast_to(check_start(x, v), (n, 2)), ONE)
+        mesh_periods = n_periods * lanes.mesh_periods
         steps = Steps(0.0, 0.0, self.steps or 0, 0)
         if self.rtol is not None:
             atol = 1e-3 * self.rtol if self.atol is None else self.atol
-            steps = Steps(float(self.rtol), float(atol), self.steps or 0, MAX_STEPS_PER_PERIOD * n_periods)
-        lanes = lanes_of(oscillators, np.broadcast_to(check_start(x, v), (n, 2)), ONE)
+            steps = Steps(float(self.rtol), float(atol), self.steps or 0, MAX_STEPS_PER_PERIOD * mesh_periods)
         points, counts = np.empty((n, n_kept, 2)), np.zeros((n, 2), np.int64)
         # One chain alone is carried along value by value, so that Ctrl-C may come in between.
-        block, longest = 1 if chain == n else chain, n_periods * PERIODS_OF_EXACT_FLOW
+        block, longest = 1 if chain == n else chain, mesh_periods * PERIODS_OF_EXACT_FLOW
         arguments = (lanes, chain, n_periods, steps, points, counts)
         on_all_cores(integrate_lanes, arguments, n, block, cores=chain < n, longest=longest)
         return points, counts[:, 0], counts[:, 1]

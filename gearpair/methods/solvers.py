@@ -62,12 +62,12 @@ def integrated_trajectory(
     wave, omega = osc.stiffness, osc.mesh_frequency
     contact_damping, flight_damping = osc.damping_ratio, osc.damping_in_flight
     amplitude = osc.error_amplitude * omega**2
-    higher = [(size * (order * omega) ** 2, order * omega, phase) for order, size, phase in osc.harmonics]
+    higher = [(size * (order * omega) ** 2, order * omega, phase) for order, size, phase in osc.error_lines[1:]]
 
     def slope(tau: float, y: NDArray[np.float64]) -> tuple[float, float]:
         x, v = y
         gap = x - 1.0 if x > 1.0 else x + 1.0 if x < -1.0 else 0.0
-        stiffness, zeta = (wave(tau / osc.period), contact_damping) if gap else (0.0, flight_damping)
+        stiffness, zeta = (wave(tau / osc.mesh_period), contact_damping) if gap else (0.0, flight_damping)
         force = osc.mean_force + amplitude * np.sin(omega * tau + osc.error_phase)
         for size, rate, phase in higher:
             force += size * np.sin(rate * tau + phase)
@@ -75,7 +75,7 @@ def integrated_trajectory(
 
     begin, end = n_transient * osc.period, (n_transient + n_periods) * osc.period
     crossings = [lambda tau, y: y[0] - 1.0, lambda tau, y: y[0] + 1.0]
-    times = np.linspace(begin, end, n_periods * samples_per_period + 1)
+    times = np.linspace(begin, end, n_periods * osc.mesh_periods * samples_per_period + 1)
     solution = solve_ivp(slope, (0.0, end), (x, v), method=method, t_eval=times, rtol=rtol, atol=atol, events=crossings)
     if not solution.success:
         raise RuntimeError(f"{method} failed: {solution.message}")

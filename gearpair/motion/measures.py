@@ -70,7 +70,7 @@ MEASURES = tuple(field.name for field in fields(ImpactMeasures))
 def impact_measures(state: SteadyState, *, n_periods: int = 2000) -> ImpactMeasures:
     """Blows, forces and displacements of a steady motion that stayed bounded.
 
-    A periodic one is measured over its cycle, any other over `n_periods` mesh periods.
+    A periodic one is measured over its cycle, any other over `n_periods` mesh periods, in whole base periods.
 
     Notes
     -----
@@ -93,10 +93,11 @@ def impact_measures(state: SteadyState, *, n_periods: int = 2000) -> ImpactMeasu
         raise ValueError(f"only a motion that stays bounded has impact measures, got one with status {state.status!r}")
     row = np.empty(at.N_MEASURES)
     x, v = map(float, state.points[0])
-    span = state.period or check_count("n_periods", n_periods)
-    status = aside(measure, state.oscillator.cells, x, v, span, np.empty(TERMS), row, periods=span * WATCHED)
+    osc = state.oscillator
+    span = state.period or osc.base_periods(check_count("n_periods", n_periods))
+    status = aside(measure, osc.cells, x, v, span, np.empty(TERMS), row, periods=span * osc.mesh_periods * WATCHED)
     assert status == OK, "the same motion stayed bounded while it settled"
-    columns = measure_columns(row[np.newaxis], np.array([state.oscillator.mean_force]))
+    columns = measure_columns(row[np.newaxis], np.array([osc.mean_force]))
     return ImpactMeasures(**{name: float(column[0]) for name, column in columns.items()})
 
 

@@ -68,7 +68,7 @@ class SettleOptions(TypedDict, total=False):
     n_transient : int or None
         Mesh periods at most before a motion is judged; `transient_periods` of the oscillator when None or not given.
     max_period : int
-        The longest period looked for, in mesh periods.
+        The longest period looked for, in base periods: mesh periods, or revolutions with `shaft_orders`.
     n_exponent : int
         Mesh periods over which the exponents of a motion that is not periodic are measured; again over `n_watch` if
         they are not resolved.
@@ -78,7 +78,8 @@ class SettleOptions(TypedDict, total=False):
 
     Notes
     -----
-    What is taken where nothing is given: `ONE` for a motion and for a sweep, `MANY` for planes and maps.
+    What is taken where nothing is given: `ONE` for a motion and for a sweep, `MANY` for planes and maps. With
+    `shaft_orders` all mesh periods are rounded up to whole revolutions.
 
     A chaotic transient of the mean life T outlasts the watch with the probability ``exp(-n_watch / T)``.
 
@@ -136,8 +137,12 @@ class SettleSettings:
 
     def before_watch(self, osc: Oscillator) -> int:
         """Mesh periods after which the watch of a motion begins that has not settled."""
-        waited = transient_periods(osc) if self.n_transient is None else self.n_transient
-        return waited + observed_periods(self.n_exponent)
+        waited = self.waited(osc) + observed_periods(osc.base_periods(self.n_exponent))
+        return waited * osc.mesh_periods
+
+    def waited(self, osc: Oscillator) -> int:
+        """Base periods of a transient at most."""
+        return osc.base_periods(transient_periods(osc) if self.n_transient is None else self.n_transient)
 
     def whole_cycles(self) -> Self:
         """These settings with room for a cycle of the longest period."""
@@ -169,7 +174,7 @@ def transient_periods(osc: Oscillator) -> int:
     >>> transient_periods(Oscillator(damping_ratio=0.00275))
     811
     """
-    rate = 0.5 * (osc.damping_ratio + osc.damping_in_flight) * osc.period
+    rate = 0.5 * (osc.damping_ratio + osc.damping_in_flight) * osc.mesh_period
     return math.ceil(min(max(20.0 / rate, 500), 20_000)) if rate > 0.0 else 500
 
 
@@ -190,7 +195,7 @@ def settle_batch(
     ----------
     oscillators : sequence of Oscillator
         One for each start, or one for each of equal runs of starts (one alone: for all); all with equally many
-        stiffness levels and harmonics.
+        stiffness levels and harmonics and the same base period.
     starts : ndarray of float, shape (n, 2)
         X and X' of each motion.
     settings : SettleSettings
@@ -209,22 +214,26 @@ def settle_batch(
     Returns
     -------
     Settled
-        Arrays with one row a motion.
+        Arrays with one row a motion; times in mesh periods.
     """
     n = len(starts)
     out = blank(n, settings)
     most = settings.share_of_work(n) if share is None else share
-    limits = Limits(settings.max_period, settings.n_exponent, settings.n_watch, most)
     lanes = lanes_of(oscillators, starts, settings)
+    whole = lanes.mesh_periods
+    n_exponent, n_watch = -(-settings.n_exponent // whole), -(-settings.n_watch // whole)
+    limits = Limits(settings.max_period, n_exponent, n_watch, most // whole)
     arguments = (lanes, chain, limits, known or nothing_known(settings), out)
     single = chain == n  # one chain is carried along in parts, one after the other
     block = BLOCK_OF_ONE if len(oscillators) == 1 else BLOCK if chain == 1 or single else chain
     damped = np.array([max(o.damping_ratio, o.damping_in_flight) > 0.0 for o in oscillators], dtype=bool)
-    watches = np.where(damped[lanes.own], settings.n_watch, 0)  # of damped motions alone
-    periods = np.minimum(lanes.n_transient + settings.n_exponent + watches, most)
+    watches = np.where(damped[lanes.own], n_watch, 0)  # of damped motions alone
+    periods = np.minimum((lanes.n_transient + n_exponent + watches) * whole, most)
     text, longest = f"at most {periods.sum():.1e} mesh periods", float(periods.max(initial=0))
     with tqdm(desc=text, total=n, unit="motion", disable=not progress) as bar:
         on_all_cores(settle_lanes, arguments, n, block, bar.update, cores and not single, longest=longest)
+    out.lasted[:] *= whole
+    out.way[:, 0] *= whole
     return out
 
 
@@ -241,17 +250,23 @@ def settle_both_ways(
 
 def lanes_of(oscillators: Sequence[Oscillator], starts: NDArray[np.float64], settings: SettleSettings) -> Lanes:
     """The lanes of a batch (see `settle_batch`); `starts` (n, 2) are copied."""
-    m, n_harmonics = len(oscillators), len(oscillators[0].harmonics) if oscillators else 0
+    m, coefficients = len(oscillators), [o.coefficients for o in oscillators]
     own = np.repeat(np.arange(m), len(starts) // max(m, 1))
-    waits = [transient_periods(o) if settings.n_transient is None else settings.n_transient for o in oscillators]
+    whole = {(o.mesh_periods, len(p.harmonics)) for o, p in zip(oscillators, coefficients, strict=True)} or {(1, 0)}
+    if len(whole) > 1:
+        raise ValueError(
+            f"all oscillators must have the same base period, got some of {min(whole)[0]} and some of {max(whole)[0]} "
+            "mesh periods: keep the amplitudes of shaft_orders above 0"
+        )
     return Lanes(
-        np.array([o.coefficients[:6] for o in oscillators]),
-        np.array([(*o.stiffness.edges, 1.0) for o in oscillators]),
-        np.array([o.stiffness.levels for o in oscillators]),
-        np.array([o.harmonics for o in oscillators], dtype=float).reshape(m, n_harmonics, 3),
+        np.array([p[:6] for p in coefficients]),
+        np.array([p.edges for p in coefficients]),
+        np.array([p.levels for p in coefficients]),
+        np.array([p.harmonics for p in coefficients]).reshape(m, min(whole)[1], 3),
         own,
         np.array(starts, dtype=float),
-        np.array(waits, dtype=np.int64)[own],
+        np.array([settings.waited(o) for o in oscillators], dtype=np.int64)[own],
+        min(whole)[0],
     )
 
 

@@ -41,17 +41,22 @@ def spectrum(trajectory: Trajectory, *, window: str | tuple[Any, ...] = "boxcar"
     Parameters
     ----------
     trajectory : Trajectory
-        Whole mesh periods, as `gearpair.trajectory` gives them; the end point, which repeats the phase of
+        Whole base periods, as `gearpair.trajectory` gives them; the end point, which repeats the phase of
         the start, is left out.
     window : str or tuple
         A window of `scipy.signal.get_window`, scaled so that a line keeps its amplitude. The default
-        is exact for a periodic motion when the number of mesh periods is a multiple of its period;
+        is exact for a periodic motion when the number of base periods is a multiple of its period;
         ``"hann"`` suits aperiodic motions.
 
     Returns
     -------
     Spectrum
-        Frequencies at multiples of ``1 / n_periods``.
+        Frequencies at multiples of ``1 / n`` for n mesh periods.
+
+    Notes
+    -----
+    With `shaft_orders` the base period is a revolution; the unit stays the mesh frequency. An error of a shaft with z
+    teeth then shows at ``1 / z``, and as sidebands at ``1 - 1 / z`` and ``1 + 1 / z``.
 
     Examples
     --------

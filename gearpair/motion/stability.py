@@ -26,7 +26,7 @@ def lyapunov_exponents(
     osc, x, v, n_transient
         As in `trajectory`; the same errors are raised.
     n_periods : int
-        Mesh periods to average over, at least 1, after as many in which the tangent turns to where it grows most.
+        Base periods to average over, at least 1, after as many in which the tangent turns to where it grows most.
 
     Returns
     -------
@@ -49,14 +49,15 @@ def lyapunov_exponents(
     n_transient = check_count("n_transient", n_transient, at_least=0)
     x, v = passed(osc, x, v, n_transient)
     q, series, reach = np.eye(2), np.empty(TERMS), np.array([x, x, 0.0, 0.0])
+    at_once = max(1, AT_ONCE // osc.mesh_periods)
     for _ in range(2):  # to turn the tangent, then to measure
         growth = damping = 0.0
-        for done in range(0, n_periods, AT_ONCE):
-            span = min(AT_ONCE, n_periods - done)
+        for done in range(0, n_periods, at_once):
+            span = min(at_once, n_periods - done)
             mean = mean_damping(osc.cells, x, v, span, series, np.empty(N_MEASURES))
             damping += (mean - damping) * (span / (done + span))
             status, x, v, total = stretch(osc.cells, x, v, span, series, q, reach)
-            raise_unless_ok(status, n_transient + n_periods)
+            raise_unless_ok(status, (n_transient + n_periods) * osc.mesh_periods)
             growth += total
     largest = growth / (n_periods * osc.period)
     return np.array([largest, -2.0 * damping - largest])

@@ -33,7 +33,7 @@ class SteadyState:
     lasted : int
         Mesh periods that the motion was followed for; of a periodic one, until it had settled.
     period : int or None
-        In mesh periods; None unless periodic.
+        In base periods (mesh periods, or revolutions with `shaft_orders`); None unless periodic.
     points : ndarray of float, shape (n, 2)
         X and X' on the section, in the order visited: the whole cycle from its smallest X where the motion is periodic,
         `n_samples` successive points where it stayed bounded, none where not.
@@ -82,7 +82,7 @@ def steady_state(
     ----------
     osc : Oscillator
     x, v : float
-        X and X' at the start of a mesh period.
+        X and X' at the start of a base period.
     n_samples : int
         Section points kept of a motion that is not periodic.
     **settling
@@ -100,6 +100,9 @@ def steady_state(
     *aperiodic* when it has not settled even then and its largest Lyapunov exponent exceeds four standard errors, and
     *unsettled* when that is not so: a statement about the `lasted` mesh periods, no more. *Floating* is a motion that
     repeats within the backlash, which has no attractor but a family of such motions.
+
+    With `shaft_orders` the period counts revolutions: a motion of period 1 repeats every revolution, whatever it does
+    from tooth to tooth.
 
     Examples
     --------

@@ -66,7 +66,7 @@ class Impacts:
 @equal_by_value
 @dataclass(frozen=True)
 class Trajectory:
-    """A sampled motion; `tau`, `x` and `v` have shape (n_periods * samples_per_period + 1,).
+    """A sampled motion; `tau`, `x` and `v` have shape (n + 1,), for `samples_per_period` samples a mesh period.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class Trajectory:
         Dimensionless time from 0 (after the transient), X and X'; the end point is included.
     impacts : Impacts
     samples_per_period : int
-        Samples per mesh period: ``x[::samples_per_period]`` is the Poincaré section.
+        Samples per mesh period.
     method : str
         ``"exact"`` or the name of the integrator.
     """
@@ -87,6 +87,12 @@ class Trajectory:
     impacts: Impacts
     samples_per_period: int
     method: str
+
+    @property
+    def section(self) -> NDArray[np.float64]:
+        """The Poincaré section: X and X' at the start and after each base period, shape (n_periods + 1, 2)."""
+        step = self.samples_per_period * self.oscillator.mesh_periods
+        return np.column_stack([self.x[::step], self.v[::step]])
 
 
 def check_starts(x: ArrayLike, v: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -126,15 +132,15 @@ def check_start(x: ArrayLike, v: ArrayLike) -> tuple[float, float]:
 def stroboscopic_map(
     osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The state `n` mesh periods after (x, v) on the section ``tau mod T = 0``.
+    """The state `n` periods after (x, v) on the section ``tau mod T = 0``.
 
     Parameters
     ----------
     osc : Oscillator
     x, v : array_like of float
-        X and X' at the start of a mesh period; broadcast against each other.
+        X and X' at the start of a period; broadcast against each other.
     n : int
-        Mesh periods, at least 0.
+        Base periods, at least 0: mesh periods, or revolutions with `shaft_orders`.
 
     Returns
     -------
@@ -167,7 +173,7 @@ def mapped(
     v: ArrayLike,
     n: int,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """X and X' after `n` mesh periods of a `walk` such as `walked`, in the shape of the starts."""
+    """X and X' after `n` base periods of a `walk` such as `walked`, in the shape of the starts."""
     xs, vs = check_starts(x, v)
     starts = np.stack([xs.ravel(), vs.ravel()], axis=1)
     ends, status = walk(starts, check_count("n", n, at_least=0))
@@ -180,8 +186,9 @@ def mapped(
 def walked(cells: Cells, starts: NDArray[np.float64], n: int) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """The states `n` mesh periods from `starts` (m, 2) on, over all cores, and the status of each walk."""
     ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
-    block = max(1, PERIODS_AT_ONCE // max(n, 1))
-    on_all_cores(walk_starts, (cells, starts, n, ends, status), len(starts), block, longest=n)
+    longest = n * cells.mesh_periods
+    block = max(1, PERIODS_AT_ONCE // max(longest, 1))
+    on_all_cores(walk_starts, (cells, starts, n, ends, status), len(starts), block, longest=longest)
     return ends, status
 
 
@@ -195,7 +202,7 @@ def trajectory(
     n_transient: int = 0,
     samples_per_period: int = 128,
 ) -> Trajectory:
-    """The motion from (x, v) at the start of a mesh period, sampled, with every impact.
+    """The motion from (x, v) at the start of a base period, sampled, with every impact.
 
     Parameters
     ----------
@@ -203,9 +210,9 @@ def trajectory(
     x, v : float
         X and X' at the start (dimensionless).
     n_periods : int
-        Mesh periods to keep, at least 1.
+        Base periods to keep, at least 1: mesh periods, or revolutions with `shaft_orders`.
     n_transient : int
-        Mesh periods to run first and discard.
+        Base periods to run first and discard.
     samples_per_period : int
         Samples per mesh period.
 
@@ -227,13 +234,14 @@ def trajectory(
     n_transient = check_count("n_transient", n_transient, at_least=0)
     samples_per_period = check_count("samples_per_period", samples_per_period)
     x, v = passed(osc, x, v, n_transient)
-    samples = np.empty((n_periods * samples_per_period + 1, 2))
+    per_base = samples_per_period * osc.mesh_periods
+    samples = np.empty((n_periods * per_base + 1, 2))
     crossings = np.empty((0, 4))
     for _ in range(2):  # once to count the crossings, once to list them
         counts = np.zeros(2, np.int64)
-        arguments = (osc.cells, x, v, n_periods, samples_per_period, samples, crossings, counts)
-        status, *samples[-1] = aside(record, *arguments, periods=n_periods * WATCHED)
-        raise_unless_ok(status, n_transient + int(counts[0]) // samples_per_period)
+        arguments = (osc.cells, x, v, n_periods, per_base, samples, crossings, counts)
+        status, *samples[-1] = aside(record, *arguments, periods=n_periods * osc.mesh_periods * WATCHED)
+        raise_unless_ok(status, n_transient * osc.mesh_periods + int(counts[0]) // samples_per_period)
         crossings = np.empty((int(counts[1]), 4)) if len(crossings) == 0 else crossings
     impacts = Impacts(
         crossings[:, 0] * osc.period, crossings[:, 1].astype(int), crossings[:, 2].copy(), crossings[:, 3] == 1.0
@@ -244,10 +252,10 @@ def trajectory(
 
 def passed(osc: Oscillator, x: float, v: float, n_periods: int) -> tuple[float, float]:
     """Where a motion is after `n_periods`, or the RuntimeError that says why it is not; Ctrl-C may come in between."""
-    series = np.empty(TERMS)
-    for done in range(0, n_periods, SHORT):
-        status, x, v = walk(osc.cells, x, v, min(SHORT, n_periods - done), series)
-        raise_unless_ok(status, n_periods)
+    series, at_once = np.empty(TERMS), max(1, SHORT // osc.mesh_periods)
+    for done in range(0, n_periods, at_once):
+        status, x, v = walk(osc.cells, x, v, min(at_once, n_periods - done), series)
+        raise_unless_ok(status, n_periods * osc.mesh_periods)
     return x, v
 
 

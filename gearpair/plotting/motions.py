@@ -46,11 +46,11 @@ def time_history(
     """
     ax = new_axes(ax)
     last, made = _first_periods(motion, n_periods)
-    tau = motion.tau[:last] / motion.oscillator.period
+    tau = motion.tau[:last] / motion.oscillator.mesh_period
     shade_backlash(ax, horizontal=True)
     ax.plot(tau, motion.x[:last], color=colour)
     if impacts:
-        _contact_dots(ax, motion.impacts.tau[made] / motion.oscillator.period, motion.impacts.side[made], colour)
+        _contact_dots(ax, motion.impacts.tau[made] / motion.oscillator.mesh_period, motion.impacts.side[made], colour)
     ax.set(xlabel=axis_label("tau"), ylabel=axis_label("x"), xlim=(0.0, tau[-1]))
     return ax
 
@@ -100,7 +100,7 @@ def poincare_section(
     colour: str = INK,
     size: float | None = None,
 ) -> Axes:
-    """X' over X once per mesh period, at ``tau mod T = 0``; dots of `size` points, or as their number suggests.
+    """X' over X once per base period, at ``tau mod T = 0``; dots of `size` points, or as their number suggests.
 
     Of a settled motion or an orbit, the section points that it holds.
 
@@ -113,7 +113,7 @@ def poincare_section(
     """
     ax = new_axes(ax, 5.0)
     if isinstance(motion, Trajectory):
-        x, v = motion.x[:: motion.samples_per_period], motion.v[:: motion.samples_per_period]
+        x, v = motion.section.T
     else:
         x, v = motion.points.T
     few = len(np.unique(np.round(np.stack([x, v]), 6), axis=1).T) <= 64
@@ -185,15 +185,17 @@ def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: s
         with plt.style.context(STYLE):
             axes = list(plt.figure(figsize=(8.0, 5.4)).subplots(2, 2).flat)
     period, colour = state.period, motion_colour(state.motion)
-    n_periods = period * -(-SPECTRUM_PERIODS // period) if period else CHAOS_PERIODS
+    osc, whole = state.oscillator, state.oscillator.mesh_periods
+    cycle = period * whole if period else None  # in mesh periods
+    n_periods = period * -(-SPECTRUM_PERIODS // cycle) if period and cycle else osc.base_periods(CHAOS_PERIODS)
     x, v = map(float, state.points[0])
-    motion = trajectory(state.oscillator, x, v, n_periods)
-    time_history(motion, axes[0], n_periods=SHOWN_PERIODS, colour=colour)
-    phase_portrait(motion, axes[1], n_periods=period or 60, colour=colour, impacts=period is not None)
+    motion = trajectory(osc, x, v, n_periods)
+    time_history(motion, axes[0], n_periods=max(SHOWN_PERIODS, whole), colour=colour)
+    phase_portrait(motion, axes[1], n_periods=cycle or max(60, whole), colour=colour, impacts=period is not None)
     shade_backlash(axes[2], horizontal=False)
     poincare_section(motion, axes[2], colour=colour)
     axes[2].set(xlim=axes[1].get_xlim(), ylim=axes[1].get_ylim())
-    spectrum(spectrum_of(motion, window="boxcar" if period else "hann"), axes[3], period=period, colour=colour)
+    spectrum(spectrum_of(motion, window="boxcar" if period else "hann"), axes[3], period=cycle, colour=colour)
     axes[0].set_title(title, loc="left")
     return list(axes)
 

@@ -50,7 +50,7 @@ def _cost(values: Mapping[str, Any], stands_for: Mapping[str, str]) -> float:
         ends = values.get("lowest", values["highest"] / SAMPLES), values["highest"]
         oscillators = [osc.replace(**{axis: float(value)}) for value in np.linspace(*ends, SAMPLES)]
     longest = values.get("n_transient", np.inf)
-    return float(np.mean([min(transient_periods(each), longest) * each.period for each in oscillators]))
+    return float(np.mean([min(transient_periods(each), longest) * each.mesh_period for each in oscillators]))
 
 
 def warning(chapter: Chapter, values: Mapping[str, Any], seconds: float | None) -> str | None:

@@ -6,7 +6,7 @@ from gearpair.teeth.iso6336 import IsoStiffness, iso_stiffness
 from gearpair.teeth.meshing import MeshStiffness, mesh_stiffness
 from gearpair.teeth.spurpair import SpurGear, SpurPair
 from gearpair.teeth.tooth_profile import ToothProfile
-from gearpair.teeth.transmission_error import error_harmonics, profile_error, tip_relief
+from gearpair.teeth.transmission_error import error_harmonics, error_orders, profile_error, tip_relief
 
 __all__ = [
     "FiniteElementBody",
@@ -18,6 +18,7 @@ __all__ = [
     "ToothProfile",
     "double_contact_stiffness",
     "error_harmonics",
+    "error_orders",
     "finite_element_bodies",
     "iso_stiffness",
     "mesh_stiffness",

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_array, check_count, check_number, checked
-from gearpair.oscillator import Harmonic
+from gearpair.oscillator import LARGEST_ORDER, Harmonic, ShaftOrder
 from gearpair.teeth.meshing import MeshStiffness
 
 Array = NDArray[np.float64]
@@ -130,3 +130,58 @@ def error_harmonics(error_um: ArrayLike, n: int, *, n_periods: int = 1) -> tuple
     return tuple(
         Harmonic(order, float(np.abs(part)), float(np.angle(1j * part))) for order, part in enumerate(parts, start=1)
     )
+
+
+@checked
+def error_orders(
+    error_um: ArrayLike, teeth: int, *, least_um: float = 0.0, most: int | None = None
+) -> tuple[tuple[Harmonic, ...], tuple[ShaftOrder, ...]]:
+    """All of a transmission error measured over one revolution: what repeats with the mesh, and what with the wheel.
+
+    Parameters
+    ----------
+    error_um : array_like, shape (m,)
+        Samples at equal steps over one revolution, the first at a start of a mesh period, the end point left out.
+    teeth : int
+        Of the wheel that turns once.
+    least_um : float
+        Smaller amplitudes are left out, as noise.
+    most : int, optional
+        How many lines are kept at most, the largest.
+
+    Returns
+    -------
+    harmonics : tuple of Harmonic
+        Of orders from 1, as `GearDrive.from_pair` takes them for `transmission_error_um`.
+    shaft_orders : tuple of ShaftOrder
+        As `GearDrive` takes them. Both by order; amplitudes in the samples' unit. The mean is left out.
+
+    Notes
+    -----
+    The samples' Fourier series, whole: with all lines it passes through every sample. Up to half as many lines as there
+    are samples are found, and none above 200 times the mesh frequency. A line that is no multiple of the mesh frequency
+    makes the base period of an oscillator a revolution.
+
+    Examples
+    --------
+    >>> turn = 2 * np.pi * np.arange(20 * 16) / (20 * 16)
+    >>> harmonics, shaft_orders = error_orders(8.0 * np.sin(20 * turn + 0.5) + 3.0 * np.sin(turn), 20, least_um=1e-9)
+    >>> [(each.order, round(each.amplitude, 9)) for each in harmonics]
+    [(1, 8.0)]
+    >>> [(each.teeth, each.order, round(each.amplitude, 9), abs(round(each.phase, 9))) for each in shaft_orders]
+    [(20, 1, 3.0, 0.0)]
+    """
+    samples, teeth = check_array("error_um", error_um, ndim=1), check_count("teeth", teeth)
+    least_um = check_number("least_um", least_um, at_least=0.0)
+    parts = 2.0 * np.fft.rfft(samples)[: min((len(samples) + 1) // 2, LARGEST_ORDER * teeth + 1)] / len(samples)
+    size = np.abs(parts)
+    largest = 1 + np.argsort(-size[1:], kind="stable")[: None if most is None else check_count("most", most)]
+    harmonics, orders = [], []
+    for line in np.sort(largest).tolist():
+        amplitude, phase = float(size[line]), float(np.angle(1j * parts[line]))
+        if amplitude > 0.0 and amplitude >= least_um:
+            if line % teeth:
+                orders.append(ShaftOrder(teeth, amplitude, phase, line))
+            else:
+                harmonics.append(Harmonic(line // teeth, amplitude, phase))
+    return tuple(harmonics), tuple(orders)

@@ -15,7 +15,7 @@ FLOW = ROOT / "gearpair" / "_flow"
 COUNT = """
 import numpy as np
 from flow.cells import Coefficients, count_cells
-p = Coefficients(0.1, 0.2, 0.0, 0.02, 0.02, 2 * np.pi, np.array([0.0, 1.0]), np.array([1.0]), np.empty((0, 3)))
+p = Coefficients(0.1, 0.2, 0.0, 0.02, 0.02, 2 * np.pi, np.array([0.0, 1.0]), np.array([1.0]), np.empty((0, 3)), 1)
 print(count_cells(p, 0), sum(count_cells.stats.cache_hits.values()))
 """
 

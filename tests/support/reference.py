@@ -8,6 +8,7 @@ sampling of X'' parts the piece where X' is monotone, its roots part it where X 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import product
 
 import numpy as np
 from mpmath import mp, mpc, mpf
@@ -27,12 +28,13 @@ def plain_coefficients(osc: gp.Oscillator) -> Coefficients:
     damping = osc.damping_ratio, osc.damping_in_flight
     scalars = (osc.mean_force, osc.error_amplitude, osc.error_phase, *damping, osc.mesh_frequency)
     harmonics = np.array(osc.harmonics, dtype=float).reshape(-1, 3)
-    return Coefficients(*scalars, np.array([*osc.stiffness.edges, 1.0]), np.array(osc.stiffness.levels), harmonics)
+    return Coefficients(*scalars, np.array([*osc.stiffness.edges, 1.0]), np.array(osc.stiffness.levels), harmonics, 1)
 
 
-def every_harmonic(osc: gp.Oscillator) -> list[tuple[int, float, float]]:
-    """(order, amplitude, phase) of the whole transmission error."""
-    return [(1, osc.error_amplitude, osc.error_phase), *osc.harmonics]
+def every_harmonic(osc: gp.Oscillator) -> list[tuple[float, float, float]]:
+    """(frequency over the mesh frequency, amplitude, phase) of the whole transmission error."""
+    shafts = [(order / teeth, amplitude, phase) for teeth, amplitude, phase, order in osc.shaft_orders]
+    return [(1, osc.error_amplitude, osc.error_phase), *osc.harmonics, *shafts]
 
 
 def right_hand_side(osc: gp.Oscillator):
@@ -45,18 +47,18 @@ def right_hand_side(osc: gp.Oscillator):
         for n, amplitude, phase in every_harmonic(osc):
             force += amplitude * (n * osc.mesh_frequency) ** 2 * np.sin(n * osc.mesh_frequency * tau + phase)
         zeta = osc.damping_ratio if gap else osc.damping_in_flight
-        return v, force - 2.0 * zeta * v - float(osc.stiffness(tau / osc.period)) * gap
+        return v, force - 2.0 * zeta * v - float(osc.stiffness(tau / osc.mesh_period)) * gap
 
     return slope
 
 
 def dop853_period(osc: gp.Oscillator, x: float, v: float) -> tuple[float, float]:
-    """The state after one mesh period from the start of one."""
+    """The state after one base period from the start of one."""
     omega = osc.mesh_frequency
     edges = [*osc.stiffness.edges, 1.0]
     region = 0
-    for i, level in enumerate(osc.stiffness.levels):
-        tau, end = edges[i] * osc.period, edges[i + 1] * osc.period
+    for turn, (i, level) in product(range(osc.mesh_periods), enumerate(osc.stiffness.levels)):
+        tau, end = (turn + edges[i]) * osc.mesh_period, (turn + edges[i + 1]) * osc.mesh_period
         while tau < end:
             force = osc.force(tau)
             jerk = sum(a * n**3 * omega**3 * np.cos(n * omega * tau + phase) for n, a, phase in every_harmonic(osc))
@@ -75,7 +77,7 @@ def dop853_period(osc: gp.Oscillator, x: float, v: float) -> tuple[float, float]
                     leave[-1].terminal = True
                     leave[-1].direction = direction if region == 0 else -direction
             if abs(x) == 1.0:  # leave the boundary first, or its event is found again
-                away = min(osc.period / 100, 0.25 * abs(v) / max(abs(rates[1]), v * v, 1e-300))
+                away = min(osc.mesh_period / 100, 0.25 * abs(v) / max(abs(rates[1]), v * v, 1e-300))
                 leave = leave if v == 0.0 else []
             run = solve_ivp(
                 slope,
@@ -85,7 +87,7 @@ def dop853_period(osc: gp.Oscillator, x: float, v: float) -> tuple[float, float]
                 events=leave,
                 rtol=1e-13,
                 atol=1e-14,
-                max_step=osc.period / 20 / max(n for n, _, _ in every_harmonic(osc)),
+                max_step=osc.mesh_period / 20 / max(n for n, _, _ in every_harmonic(osc)),
             )
             tau, (x, v) = run.t[-1], run.y[:, -1]
             if run.status == 1:
