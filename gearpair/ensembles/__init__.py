@@ -1,7 +1,8 @@
 """Ensembles of motions: sweeps and maps over parameters, basins over starts, where each motion lives, and how long."""
 
 from gearpair.ensembles.escape_rates import EscapeRate, Persistence, escape_rate
-from gearpair.ensembles.labelling import Attractors, attractors
+from gearpair.ensembles.finding import attractors
+from gearpair.ensembles.labelling import Attractors
 from gearpair.ensembles.lifetimes import survival, survival_along
 from gearpair.ensembles.planes import attractor_motions, attractor_states, basins
 from gearpair.ensembles.ranges import (

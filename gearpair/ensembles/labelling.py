@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, Unpack, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_array, check_count, check_number, check_reach, checked
+from gearpair._checks import check_count, check_number, checked
 from gearpair._equality import equal_by_value
 from gearpair._flow.states import APERIODIC, GONE, PERIODIC, TRANSIENT, Known, Settled
 from gearpair.ensembles.capture import (
@@ -28,9 +28,9 @@ from gearpair.ensembles.chaos import ChaoticSets, Observed, chaotic_sets, neighb
 from gearpair.ensembles.datasets import settled_columns
 from gearpair.motion.impacts import IMPACT_STATES
 from gearpair.motion.names import CHAOS, Motion
-from gearpair.motion.settling import MANY, STATUSES, SettleOptions, SettleSettings, Status, settle_batch
+from gearpair.motion.settling import STATUSES, SettleSettings, Status, settle_batch
 from gearpair.motion.steady import SteadyState, describe
-from gearpair.motion.trajectories import check_pairs, check_starts
+from gearpair.motion.trajectories import check_pairs, check_starts, walked
 from gearpair.oscillator import Oscillator
 from gearpair.quantities import symbol
 from gearpair.table import Table
@@ -76,6 +76,7 @@ class Attractors(Sequence[SteadyState]):
 
     Examples
     --------
+    >>> from gearpair import attractors
     >>> found = attractors(Oscillator(), 100)
     >>> found.numbers[:2], str(found[0].motion), found.label([-2.0, 1.0], [1.5, 0.0])
     ((0, 1), 'period 1, double-sided', array([0, 1]))
@@ -132,7 +133,7 @@ class Attractors(Sequence[SteadyState]):
     @cached_property
     def columns(self) -> dict[str, NDArray[Any]]:
         """What each attractor is, as the library's codes."""
-        _, table = number_attractors([], self.sets, self.before())
+        _, table = number_attractors([], self.sets, numbers_of(self))
         counts = np.array([np.sum(self.labels == number) for number in self.numbers], np.int64)
         return table | {"counts": counts}
 
@@ -155,29 +156,6 @@ class Attractors(Sequence[SteadyState]):
     def _known(self) -> Known:
         known = known_among(self.oscillator, self.evidence.settled)
         return known._replace(lasting=self.evidence.lasting)
-
-    def known(self, settings: SettleSettings) -> Known:
-        """What captures other starts that are settled by `settings`."""
-        settled = self._known.settled
-        places = np.arange(settings.n_samples) % settled.period[:, np.newaxis]
-        points = settled.points[np.arange(len(places))[:, np.newaxis], places]
-        return self._known._replace(settled=settled._replace(points=points))
-
-    def before(self, *, periodic: bool = False) -> Numbers:
-        """These among others, which have been found before; or the `periodic` ones alone."""
-        columns, observed = settled_columns(self.evidence.settled), self.evidence.observed
-        unused = max([*self.numbers, *self.ended, UNKNOWN]) + 1
-        numbers = Numbers(np.array(self.numbers, np.int64), columns, observed, unused)
-        if not periodic:
-            return numbers
-        rows = np.flatnonzero(columns["status"] == PERIODIC)
-        columns = {name: column[rows] for name, column in columns.items()}
-        return Numbers(numbers.numbers[rows], columns, scouted(np.empty((0, 4))), unused)
-
-    def check_of(self, osc: Oscillator) -> None:
-        """Raise a ValueError unless these are attractors of `osc`."""
-        if self.oscillator != osc:
-            raise ValueError(f"attractors must be those of this oscillator, {osc!r}, got those of {self.oscillator!r}")
 
     @checked
     def label(self, x: ArrayLike, v: ArrayLike) -> int | NDArray[np.int64]:
@@ -203,13 +181,14 @@ class Attractors(Sequence[SteadyState]):
 
         Examples
         --------
+        >>> from gearpair import attractors
         >>> attractors(Oscillator(), 100).label(-2.0, 1.5)
         0
         """
         xs, vs = check_starts(x, v)
-        settings = replace(self.settings, n_samples=1)
         starts = np.stack([xs.ravel(), vs.ravel()], axis=1)
-        out = settle_batch([self.oscillator], starts, settings, known=self.known(settings))
+        known = known_of(self, self.oscillator, self.settings)
+        out = settle_batch([self.oscillator], starts, self.settings, known=known)
         numbers = self._numbers(settled_columns(out)).reshape(xs.shape)
         return numbers if xs.ndim else int(numbers)
 
@@ -218,7 +197,8 @@ class Attractors(Sequence[SteadyState]):
         columns = with_sets(self.sets, columns, discard)
         own = with_sets(self.sets, settled_columns(self.evidence.settled), discard)
         places = neighbours(marks_of(own), marks_of(columns))
-        return np.where(places >= 0, np.append(self.numbers, UNKNOWN)[places], codes_of(columns["status"]))
+        numbers = np.array([*self.numbers, UNKNOWN], np.int64)
+        return np.where(places >= 0, numbers[places], codes_of(columns["status"]))
 
     @checked
     def including(self, x: ArrayLike, v: ArrayLike) -> Attractors:
@@ -231,6 +211,7 @@ class Attractors(Sequence[SteadyState]):
 
         Examples
         --------
+        >>> from gearpair import attractors
         >>> one = attractors(Oscillator(), starts=[(-2.0, 1.5)])
         >>> one.label(1.0, 0.0), one.including(1.0, 0.0).label(1.0, 0.0)
         (-1, 1)
@@ -253,6 +234,7 @@ class Attractors(Sequence[SteadyState]):
 
         Examples
         --------
+        >>> from gearpair import attractors
         >>> found = attractors(Oscillator(), 50).follow("damping_ratio", 0.15)
         >>> found.oscillator.damping_ratio, len(found), found.label(0.0, 0.0) in found.numbers
         (0.15, 1, True)
@@ -268,10 +250,11 @@ class Attractors(Sequence[SteadyState]):
 
         Examples
         --------
+        >>> from gearpair import attractors
         >>> attractors(Oscillator(damping_ratio=0.1), 50).table()
-        number  motion                X_min  X_max  lambda_1  share  chaos
-        ------------------------------------------------------------------
-             0  period 2, single-sided  0.6    1.4    -0.100  1.000
+        number  motion                  X_min  X_max  lambda_1  share
+        -------------------------------------------------------------
+             0  period 1, single-sided  0.448  1.415    -0.022  1.000
         """
         check_count("digits", digits, at_least=0)
         names = "x_min", "x_max", "exponent"
@@ -302,6 +285,7 @@ class Attractors(Sequence[SteadyState]):
 
         Examples
         --------
+        >>> from gearpair import attractors
         >>> found = attractors(Oscillator(), 50)
         >>> Attractors.from_dataset(found.to_dataset()) == found
         True
@@ -319,64 +303,35 @@ class Attractors(Sequence[SteadyState]):
         return from_dataset(result)
 
 
+def known_of(found: Attractors, osc: Oscillator, settings: SettleSettings) -> Known:
+    """What captures other starts of `osc` that are settled by `settings`; a ValueError where it is another's."""
+    check_of(found, osc)
+    settled = found._known.settled
+    places = np.arange(settings.n_samples) % settled.period[:, np.newaxis]
+    points = settled.points[np.arange(len(places))[:, np.newaxis], places]
+    return found._known._replace(settled=settled._replace(points=points))
+
+
+def check_of(found: Attractors, osc: Oscillator) -> None:
+    """Raise a ValueError unless the attractors are those of `osc`."""
+    if found.oscillator != osc:
+        raise ValueError(f"attractors must be those of this oscillator, {osc!r}, got those of {found.oscillator!r}")
+
+
+def numbers_of(found: Attractors, *, periodic: bool = False) -> Numbers:
+    """The numbers that attractors have, for others to be numbered beside; or those of the `periodic` ones alone."""
+    settled, observed = found.evidence.settled, found.evidence.observed
+    columns, numbers = settled_columns(settled), np.array(found.numbers, np.int64)
+    if periodic:
+        rows = np.flatnonzero(settled.status == PERIODIC)
+        columns, numbers = {name: column[rows] for name, column in columns.items()}, numbers[rows]
+        observed = scouted(np.empty((0, 4)))
+    return Numbers(numbers, columns, observed, max([*found.numbers, *found.ended, UNKNOWN]) + 1)
+
+
 def codes_of(status: NDArray[np.int64]) -> NDArray[np.int64]:
     """What stands for the number of motions that have no attractor, by their status."""
     return np.where(status == GONE, ESCAPES, np.where(status == TRANSIENT, LINGERS, UNKNOWN))
-
-
-@checked
-def attractors(
-    osc: Oscillator,
-    n: int = 500,
-    *,
-    x_reach: tuple[float, float] = (-4.0, 4.0),
-    v_reach: tuple[float, float] = (-3.0, 3.0),
-    seed: int = 0,
-    starts: ArrayLike | None = None,
-    progress: bool = False,
-    **settling: Unpack[SettleOptions],
-) -> Attractors:
-    """The motions that random starts settle on, found once: numbered, and ready to label any other start.
-
-    Parameters
-    ----------
-    osc : Oscillator
-    n, x_reach, v_reach, seed
-        The starts, as in `gearpair.ensembles.basin_stability`.
-    starts : array_like of float, shape (n, 2), optional
-        X and X' of other starts, in place of these.
-    progress : bool
-        Show a progress bar on stderr.
-    **settling
-        See `gearpair.motion.SettleOptions`.
-
-    Returns
-    -------
-    Attractors
-        Numbered as by `gearpair.basins`: periodic ones first, by period and X; then chaotic sets that no motion has
-        left; then all unsettled motions as one. A motion that few starts lead to may be missed:
-        `Attractors.label` tells -1 of these, and `Attractors.including` takes them in.
-
-    Examples
-    --------
-    >>> found = attractors(Oscillator(mesh_frequency=1.219), 50)
-    >>> found.numbers, [str(motion.motion.kind) for motion in found]
-    ((0,), ['chaos'])
-    """
-    if starts is None:
-        pairs = random_starts(check_count("n", n), x_reach, v_reach, seed)
-    else:
-        pairs = check_array("starts", starts)
-        if pairs.ndim != 2 or pairs.shape[1] != 2 or not len(pairs):
-            raise ValueError(f"starts must be pairs of finite numbers, one at least, got shape {pairs.shape}")
-    return surveyed(osc, pairs, MANY.having(settling).whole_cycles(), progress=progress)
-
-
-def random_starts(n: int, x_reach: tuple[float, float], v_reach: tuple[float, float], seed: int) -> NDArray[np.float64]:
-    """Starts (n, 2) drawn evenly from a rectangle, or a ValueError that says what is wrong with it."""
-    (x_low, x_high), (v_low, v_high) = check_reach("x_reach", x_reach), check_reach("v_reach", v_reach)
-    generator = np.random.default_rng(check_count("seed", seed, at_least=0))
-    return generator.uniform((x_low, v_low), (x_high, v_high), (n, 2))
 
 
 def surveyed(
@@ -391,13 +346,16 @@ def surveyed(
     if before is None:
         known, numbers = known_attractors(osc, starts[scouts(len(starts))], settings), None
     else:
-        known = before.known(settings)
-        numbers = before.before()._replace(observed=scouted(known.lasting))  # the motions of all starts are seen again
+        known = known_of(before, osc, settings)
+        # The motions of all starts are seen again.
+        numbers = numbers_of(before)._replace(observed=scouted(known.lasting))
     out = settle_batch([osc], starts, settings, known=known, progress=progress)
     result = numbered(settled_columns(out), settings.before_watch(osc), known.lasting, numbers)
     if before is None:
         return gathered(osc, starts, settings, out, result, known.lasting)
-    out = Settled._make(map(np.concatenate, zip(out, before.evidence.settled, strict=True)))
+    own = before.evidence.settled
+    own = own._replace(points=own.points[:, : settings.n_samples])
+    out = Settled._make(map(np.concatenate, zip(out, own, strict=True)))
     ended = {number: place for number, place in before.places.items() if number not in result.table["number"]}
     return gathered(osc, starts, settings, out, result, known.lasting, ended=ended)
 
@@ -421,9 +379,19 @@ def gathered(
         status=table["status"][order].astype(np.int64),
         attractor=np.full(len(order), UNKNOWN),
         way=np.full(settled.way.shape, np.nan),
+        points=_section_points(osc, settled, settings.whole_cycles().n_samples),
     )
     attractor, status = result.columns["attractor"][:n], result.columns["status"][:n]
     own = np.append(given, UNKNOWN)[np.searchsorted(table["number"], attractor)]
     labels = np.where(attractor >= 0, own, codes_of(status))
     evidence = Evidence(settled, result.sets.seen, lasting, result.leads_to[:, order])
     return Attractors(osc, tuple(given[order].tolist()), starts, labels, settings, dict(ended or {}), evidence)
+
+
+def _section_points(osc: Oscillator, settled: Settled, n: int) -> NDArray[np.float64]:
+    """The first `n` section points of settled motions (k, n, 2), of which the first is known; a cycle is repeated."""
+    points = [settled.points[:, 0]]
+    for _ in range(n - 1):
+        points.append(walked(osc.cells, points[-1], 1)[0])
+    places = np.arange(n) % np.where(settled.period > 0, settled.period, n)[:, np.newaxis]
+    return np.stack(points, axis=1)[np.arange(len(places))[:, np.newaxis], places]

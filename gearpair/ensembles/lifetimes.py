@@ -19,7 +19,7 @@ from gearpair._flow.watch import Watched, watch_starts
 from gearpair.ensembles.capture import joined, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of, with_numbers
 from gearpair.ensembles.escape_rates import EscapeRate, Persistence, escape_rate
-from gearpair.ensembles.labelling import Attractors
+from gearpair.ensembles.labelling import Attractors, known_of, numbers_of
 from gearpair.ensembles.planes import RATES, attractor_variables
 from gearpair.motion.settling import MANY, nothing_known, settle_batch, transient_periods
 from gearpair.motion.trajectories import check_pairs, raise_if_capped
@@ -114,7 +114,7 @@ def survival(
     gone = (watched.owner >= 0) | (watched.status == ESCAPED)
     columns = {"start_x": starts[:, 0], "start_v": starts[:, 1]}
     columns["escape_time"] = np.where(gone, watched.periods, np.nan)
-    before = None if attractors is None else attractors.before(periodic=True)
+    before = None if attractors is None else numbers_of(attractors, periodic=True)
     result = numbered(settled_columns(known.settled), 0, known.lasting, before)
     numbers, table = result.columns["attractor"], result.table
     columns["attractor"] = np.where(watched.owner >= 0, np.append(numbers, ON_ITS_WAY)[watched.owner], ON_ITS_WAY)
@@ -185,10 +185,7 @@ def watched_starts(
     The last has one row for each start that was not captured, settled from where it has come to.
     """
     settings = replace(MANY, n_watch=0).whole_cycles()  # the watch is this function's own
-    known = nothing_known(settings)
-    if attractors is not None:
-        attractors.check_of(osc)
-        known = attractors.known(settings)
+    known = nothing_known(settings) if attractors is None else known_of(attractors, osc, settings)
     known = joined(osc, known, settle_batch([osc], starts[scouts(len(starts))], settings, known=known))
     n = len(starts)
     watched = Watched(np.full(n, OK), np.full(n, -1), np.zeros(n, np.int64), starts.copy())

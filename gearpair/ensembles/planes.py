@@ -37,7 +37,7 @@ from gearpair.ensembles.datasets import (
     with_numbers,
 )
 from gearpair.ensembles.escape_rates import EscapeRate, Persistence
-from gearpair.ensembles.labelling import Attractors
+from gearpair.ensembles.labelling import Attractors, known_of, numbers_of
 from gearpair.ensembles.stores import add_column, add_table, by_store, column_of, fingerprint, read_blocks, stored
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import Motion, motions_from
@@ -78,8 +78,9 @@ def basins(
     x, v : array_like of float, shapes (n_x,) and (n_v,)
         Initial X and X'.
     attractors : Attractors, optional
-        Motions of `osc` found before, of `gearpair.attractors`: they are not looked for again, and keep their numbers.
-        Others that starts lead to have the next ones.
+        Motions of `osc` found before, by `gearpair.attractors` with the same `settling`: they are not looked for again
+        and keep their numbers, reached or not. Others that starts lead to have the next ones. What was then seen of
+        chaotic sets counts, too: a set that motions have left is a transient.
     store : path, optional
         Write the result to a Zarr store, block by block, and return it from there: memory then holds one block. The
         same call goes on with a store not yet finished; one of another call is refused. Codes stand for words, which
@@ -177,9 +178,8 @@ class Plane:
     ) -> Plane:
         """With the attractors, if given, or those that some of the starts reach: the same however the plane is cut."""
         if attractors is not None:
-            attractors.check_of(osc)
-            known = attractors.known(settings)
-            return cls(osc, {"v": vs, "x": xs}, settings, known, attractors.before())
+            known = known_of(attractors, osc, settings)
+            return cls(osc, {"v": vs, "x": xs}, settings, known, numbers_of(attractors))
         n = len(xs) * len(vs)
         rows, columns = np.divmod(scouts(n), len(xs))
         scouting = np.stack([xs[columns], vs[rows]], axis=1)

@@ -39,7 +39,7 @@ def to_dataset(found: Attractors) -> xr.Dataset:
     ended = [[number, *place] for number, place in found.ended.items()]
     kept["ended"] = "ended", np.array(ended, float).reshape(-1, 3)
     for name, (dim, values) in kept.items():
-        dims = (dim, *(f"of_{length}" for length in values.shape[1:]))
+        dims = (dim, *(f"axis_{k}_of_{length}" for k, length in enumerate(values.shape[1:], 1)))
         variables[f"kept_{name}"] = (dims, values, {"long_name": "for Attractors.from_dataset"})
     settings = json.dumps(asdict(found.settings))
     return with_numbers(dataset(found.oscillator, variables, {}, settings=settings))

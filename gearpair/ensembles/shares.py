@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 from gearpair._checks import check_count, checked
 from gearpair.ensembles.capture import known_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, with_numbers
-from gearpair.ensembles.labelling import Attractors, random_starts
+from gearpair.ensembles.finding import random_starts
+from gearpair.ensembles.labelling import Attractors, known_of, numbers_of
 from gearpair.ensembles.planes import attractor_variables, basins
 from gearpair.motion.names import motions_of
 from gearpair.motion.settling import MANY, BatchOptions, SettleOptions, settle_batch
@@ -70,8 +71,7 @@ def basin_stability(
     if attractors is None:
         known, before = known_attractors(osc, starts[scouts(n)], settings), None
     else:
-        attractors.check_of(osc)
-        known, before = attractors.known(settings), attractors.before()
+        known, before = known_of(attractors, osc, settings), numbers_of(attractors)
     out = settle_batch([osc], starts, settings, known=known)
     table = numbered(settled_columns(out), settings.before_watch(osc), known.lasting, before).table
     return with_numbers(dataset(osc, attractor_variables(table, n, errors=True), {}, n=n))

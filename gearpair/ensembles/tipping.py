@@ -13,7 +13,8 @@ from gearpair._checks import check_count, check_number, checked
 from gearpair._flow.states import TRANSIENT
 from gearpair.ensembles.capture import known_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
-from gearpair.ensembles.labelling import ESCAPES, LINGERS, Attractors, gathered, random_starts, surveyed
+from gearpair.ensembles.finding import random_starts
+from gearpair.ensembles.labelling import ESCAPES, LINGERS, Attractors, check_of, gathered, numbers_of, surveyed
 from gearpair.ensembles.planes import ATTRACTOR_COLUMNS
 from gearpair.motion.settling import MANY, SettleOptions, SettleSettings, settle_batch
 from gearpair.oscillator import Oscillator
@@ -84,10 +85,10 @@ def continue_attractors(
     oscillators, checked = oscillators_along(osc, parameter, values)
     nearest = check_number("nearest", nearest, above=0.0)
     starts = random_starts(check_count("n", n), x_reach, v_reach, seed)
-    settings = MANY.having(settling).whole_cycles()
+    settings = MANY.having(settling)
     found = attractors
     if found is not None:
-        found.check_of(osc)
+        check_of(found, osc)
         found = replace(found, starts=starts, settings=settings)
     entries: list[tuple[int, int, dict[str, float]]] = []  # row, number, what there is to tell
     lingering = np.zeros(len(checked))
@@ -104,7 +105,7 @@ def continue_attractors(
         entries += [(i, number, {"tips_to": to}) for number, to in tipped.items()]
         lingering[i] = np.mean(found.labels == LINGERS)
     assert found is not None  # there is one value at least
-    shape = len(checked), found.before().unused
+    shape = len(checked), numbers_of(found).unused
     columns = {name: np.full(shape, np.nan) for name in ("share", "x_min", "x_max", "exponent")}
     columns |= {name: np.full(shape, -1) for name in ("status", "impact_state", "tips_to")}
     columns["period"] = np.zeros(shape, np.int64)

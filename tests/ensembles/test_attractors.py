@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 import gearpair as gp
 from gearpair import ensembles, motion
-from gearpair.ensembles.labelling import ESCAPES, LINGERS, UNKNOWN
+from gearpair.ensembles.labelling import ESCAPES, LINGERS, UNKNOWN, numbers_of
 from gearpair.motion.same_orbit import lies_on
-from tests.support import linear_case
+from tests.support import always_in_contact
 from tests.support.oscillators import level
 
 BASELINE = gp.Oscillator()
@@ -88,17 +88,10 @@ def test_the_section_points_lead_to_their_own_attractor(found):
     assert found.label(np.empty((0, 3)), 0.0).shape == (0, 3)
 
 
-@pytest.mark.parametrize("engine", ["scipy", "zarr"])
-def test_a_file_labels_the_same(found, tmp_path, engine):
-    if engine == "zarr":
-        pytest.importorskip("zarr")
-        found.to_dataset().to_zarr(tmp_path / "found")
-        with xr.open_zarr(tmp_path / "found", consolidated=False) as result:
-            again = gp.Attractors.from_dataset(result.load())
-    else:
-        found.to_dataset().to_netcdf(tmp_path / "found.nc", engine=engine)
-        with xr.open_dataset(tmp_path / "found.nc") as result:
-            again = gp.Attractors.from_dataset(result)
+def test_a_file_labels_the_same(found, tmp_path):
+    found.to_dataset().to_netcdf(tmp_path / "found.nc", engine="scipy")
+    with xr.open_dataset(tmp_path / "found.nc") as result:
+        again = gp.Attractors.from_dataset(result)
     assert again == found and hash(again) == hash(found)
     np.testing.assert_array_equal(again.label(X, V[:, np.newaxis]), found.label(X, V[:, np.newaxis]))
     assert again.table() == found.table()
@@ -108,7 +101,7 @@ def test_the_one_motion_of_a_linear_pair():
     osc = level(0.9, mean_force=4.0, damping_ratio=0.1, mesh_frequency=1.3)
     found = gp.attractors(osc, 40, x_reach=(3.0, 7.0))
     assert found.numbers == (0,) and found.shares.tolist() == [1.0]
-    np.testing.assert_allclose(found[0].points[0], linear_case.section_point(osc), atol=1e-12)
+    np.testing.assert_allclose(found[0].points[0], always_in_contact.section_point(osc), atol=1e-12)
 
 
 def test_shares_are_those_of_the_same_random_starts():
@@ -162,9 +155,10 @@ def test_numbers_stay_along_a_parameter():
         assert list(found.numbers) == there and found.oscillator.damping_ratio == value
         np.testing.assert_array_equal(found.shares, shares.share[i, there])
         np.testing.assert_array_equal(found.columns["period"], shares.attractor_period[i, there])
-        assert set(found.ended) == set(range(found.before().unused)) - set(found.numbers)
+        assert set(found.ended) == set(range(numbers_of(found).unused)) - set(found.numbers)
         np.testing.assert_array_equal(found.label(*found.starts.T), found.labels)
-    assert len(found.ended) < 3 < len(found)  # the clatter of 0.1 has gone, and the motions of 0.021 are back
+    there = shares.share.notnull().values
+    assert there[2].sum() < there[1].sum() and np.array_equal(there[1], there[3])  # those of 0.021 are back
 
 
 def test_a_continuation_goes_on_with_the_numbers_of_attractors():
@@ -184,7 +178,7 @@ def test_numbers_with_gaps_everywhere():
     np.testing.assert_array_equal(plane.attractor, found.label(X, V[:, np.newaxis]))
     assert plane.attractor_number.values.tolist() == list(found.numbers)
     np.testing.assert_array_equal(plane.attractor_period.sel(attractor_number=plane.attractor), plane.period)
-    assert gp.plotting.basins(plane).images[0].get_array().max() <= len(found)
+    assert gp.plotting.basins(plane).collections[0].get_array().max() <= len(found)
     watched = gp.survival(BASELINE, X, 0.5, n_periods=1000, attractors=found)
     np.testing.assert_array_equal(watched.attractor, found.label(X, 0.5))
     assert watched.attractor_number.values.tolist() == list(found.numbers)
@@ -243,6 +237,7 @@ def test_where_everything_escapes_there_is_no_attractor():
     osc = CASES["unstable contact"].replace(damping_ratio=0.0)
     found = gp.attractors(osc, starts=[(50.0, 0.0), (80.0, 5.0)])
     assert len(found) == 0 and found.labels.tolist() == [ESCAPES] * 2 and found.label(60.0, 0.0) == ESCAPES
+    assert found.label([60.0], 0.0).dtype == np.int64
     assert gp.Attractors.from_dataset(found.to_dataset()) == found
     assert found.table().rows == (("–", "escaped", "–", "–", "–", "1.000"),)
     assert np.all(gp.basins(osc, [60.0], [0.0], attractors=found).attractor == -1)
