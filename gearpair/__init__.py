@@ -22,7 +22,7 @@ from gearpair.bifurcations import (
 )
 from gearpair.boundaries import critical_shock, edge_state, manifolds
 from gearpair.drive import GearDrive
-from gearpair.ensembles import basins, parameter_map, survival, sweep
+from gearpair.ensembles import Attractors, attractors, basins, parameter_map, survival, sweep
 from gearpair.motion import (
     ImpactState,
     Status,
@@ -41,6 +41,7 @@ from gearpair.table import Table
 from gearpair.teeth import SpurPair, mesh_stiffness
 
 __all__ = [
+    "Attractors",
     "Bifurcation",
     "Branch",
     "GearDrive",
@@ -54,6 +55,7 @@ __all__ = [
     "Table",
     "Trajectory",
     "article",
+    "attractors",
     "basins",
     "bifurcations",
     "boundaries",

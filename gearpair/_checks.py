@@ -131,6 +131,7 @@ def check_choice(name: str, value: Any, choices: Collection[str]) -> None:
 STARTS = ("x", "v")  # numbers, or arrays of them; what is wrong with them `check_starts` says
 # What makes an object of a class, by its name; and what to hand over where another one has it.
 MADE_BY = {
+    "Attractors": "as gearpair.attractors gives it",
     "Bifurcation": "one of the bifurcations of a Branch",
     "BifurcationCurve": "as gearpair.continue_bifurcation gives it",
     "Branch": "as gearpair.continue_orbit gives it",
@@ -146,6 +147,7 @@ MADE_BY = {
     "Trajectory": "as gearpair.trajectory gives it",
 }
 HAS = {
+    ("Oscillator", "Attractors"): "its oscillator",
     ("Oscillator", "GearDrive"): "its oscillator()",
     ("Oscillator", "SteadyState"): "its oscillator",
     ("Oscillator", "PeriodicOrbit"): "its oscillator",

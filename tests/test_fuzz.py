@@ -71,6 +71,7 @@ CALLS = {
     "ensembles": {
         "attractor_motions": lambda: {"result": made("plane")},
         "attractor_states": lambda: {"osc": OSC, "result": made("plane")},
+        "attractors": lambda: {"osc": OSC, "n": 10, **QUICK},
         "basin_entropy": lambda: {"plane": [[0, 1], [1, 0]], "box": 2},
         "basin_stability": lambda: {"osc": OSC, "n": 10, **QUICK},
         "basins": lambda: {"osc": OSC, "x": [0.0, 1.0], "v": [0.0], **QUICK},

@@ -15,6 +15,7 @@ from tests.support import ROOT
 CHAOS = "osc = gp.Oscillator(mesh_frequency=1.219)\n"
 # What one kernel call does takes some ten seconds: it goes on behind, and must not be there for all that follow.
 CALLS = {
+    "attractors": "gp.attractors(osc, 300_000)",
     "basin_stability": "gp.ensembles.basin_stability(osc, 300_000)",
     "basins": "gp.basins(osc, np.linspace(-4, 4, 600), np.linspace(-3, 3, 600))",
     "motion_shares": "gp.ensembles.motion_shares(osc, 'damping_ratio', np.linspace(.01, .02, 99), X, X)",

@@ -1,6 +1,8 @@
 """Ensembles of motions: sweeps and maps over parameters, basins over starts, where each motion lives, and how long."""
 
 from gearpair.ensembles.escape_rates import EscapeRate, Persistence, escape_rate
+from gearpair.ensembles.finding import attractors
+from gearpair.ensembles.labelling import Attractors
 from gearpair.ensembles.lifetimes import survival, survival_along
 from gearpair.ensembles.planes import attractor_motions, attractor_states, basins
 from gearpair.ensembles.ranges import (
@@ -21,6 +23,7 @@ from gearpair.ensembles.tipping import continue_attractors
 from gearpair.ensembles.uncertainty import BasinEntropy, UncertaintyExponent, basin_entropy, uncertainty_exponent
 
 __all__ = [
+    "Attractors",
     "BasinEntropy",
     "EscapeRate",
     "MotionRange",
@@ -28,6 +31,7 @@ __all__ = [
     "UncertaintyExponent",
     "attractor_motions",
     "attractor_states",
+    "attractors",
     "basin_entropy",
     "basin_stability",
     "basins",

@@ -9,7 +9,16 @@ from numpy.typing import NDArray
 
 from gearpair._flow.capture import COLUMNS, surround_rows
 from gearpair._flow.states import APERIODIC, FLOATING, PERIODIC, UNSETTLED, Known, Settled
-from gearpair.ensembles.chaos import ChaoticSets, chained, chaotic_sets, judged_status, observed_in, scouted, sets_of
+from gearpair.ensembles.chaos import (
+    ChaoticSets,
+    Observed,
+    chained,
+    chaotic_sets,
+    judged_status,
+    observed_in,
+    scouted,
+    sets_of,
+)
 from gearpair.ensembles.datasets import settled_columns
 from gearpair.motion.impacts import impact_codes
 from gearpair.motion.same_orbit import SAME_ORBIT
@@ -117,23 +126,39 @@ def found_in(columns: Mapping[str, NDArray[Any]], offset: int = 0) -> tuple[Foun
     return Found(marks[first], rows + offset, counts, {name: c[rows] for name, c in columns.items()}), places
 
 
+class Numbers(NamedTuple):
+    """Attractors that have numbers, which they keep among others."""
+
+    numbers: NDArray[np.int64]  # (k,)
+    columns: dict[str, NDArray[Any]]  # what each is, (k,) each
+    observed: Observed  # what else has been seen of chaotic sets
+    unused: int  # from here on no number has been given
+
+
 class Numbered(NamedTuple):
     """What motions from many starts lead to."""
 
     columns: dict[str, NDArray[Any]]  # of each motion, with ``attractor`` and ``chaotic_set``, -1 where there is none
-    table: dict[str, NDArray[Any]]  # of each attractor
+    table: dict[str, NDArray[Any]]  # of each attractor, by its number
     sets: ChaoticSets
     leads_to: NDArray[np.int64]  # (sets, attractors) how many motions that left a set went where
 
 
-def numbered(columns: dict[str, NDArray[Any]], discard: int, lasting: NDArray[np.float64]) -> Numbered:
-    """Numbers for the attractors and chaotic sets of motions: what stores do in parts."""
-    sets = chaotic_sets([observed_in(columns, discard), scouted(lasting)])
+def numbered(
+    columns: dict[str, NDArray[Any]], discard: int, lasting: NDArray[np.float64], before: Numbers | None = None
+) -> Numbered:
+    """Numbers for the attractors and chaotic sets of motions, those from `before` kept: what stores do in parts."""
+    sets = chaotic_sets([observed_in(columns, discard), seen_before(lasting, before)])
     columns = with_sets(sets, columns, discard)
     found, places = found_in(columns)
-    (numbers,), table = number_attractors([found], sets)
+    (numbers,), table = number_attractors([found], sets, before, len(places))
     columns = columns | {"attractor": numbers[places]}
-    return Numbered(columns, table, sets, leading(columns, sets, len(table["counts"])))
+    return Numbered(columns, table, sets, leading(columns, sets, table["number"]))
+
+
+def seen_before(lasting: NDArray[np.float64], before: Numbers | None) -> Observed:
+    """What is known of chaotic sets besides the motions that are numbered."""
+    return scouted(lasting) if before is None else before.observed
 
 
 def with_sets(sets: ChaoticSets, columns: dict[str, NDArray[Any]], discard: int) -> dict[str, NDArray[Any]]:
@@ -142,25 +167,45 @@ def with_sets(sets: ChaoticSets, columns: dict[str, NDArray[Any]], discard: int)
     return columns | {"status": judged_status(sets, labels, columns), "chaotic_set": labels}
 
 
-def leading(columns: Mapping[str, NDArray[Any]], sets: ChaoticSets, n: int) -> NDArray[np.int64]:
-    """How many motions have left each set for each of `n` attractors."""
+def leading(columns: Mapping[str, NDArray[Any]], sets: ChaoticSets, numbers: NDArray[np.int64]) -> NDArray[np.int64]:
+    """How many motions have left each set for each attractor of the rising `numbers`."""
     left = (columns["chaotic_set"] >= 0) & (columns["status"] == PERIODIC)
-    counts = np.zeros((len(sets.observed.motions), n), np.int64)
-    np.add.at(counts, (columns["chaotic_set"][left], columns["attractor"][left]), 1)
+    counts = np.zeros((len(sets.observed.motions), len(numbers)), np.int64)
+    np.add.at(counts, (columns["chaotic_set"][left], np.searchsorted(numbers, columns["attractor"][left])), 1)
     return counts
 
 
 def number_attractors(
-    found: Sequence[Found], sets: ChaoticSets
+    found: Sequence[Found], sets: ChaoticSets, before: Numbers | None = None, n: int = 0
 ) -> tuple[list[NDArray[np.int64]], dict[str, NDArray[Any]]]:
     """One numbering for the attractors of several parts: the number of each part's places, and what each attractor is.
 
     Periodic attractors come first, by period and X; then chaotic sets, by their smallest X; then all unsettled motions
-    as one, and all that float. The table has their columns, the ``first`` motion of each and ``counts``; a chaotic set
-    has the range and the mean exponent of all its motions.
+    as one, and all that float. The table has their ``number`` and columns, the ``first`` motion of each and ``counts``;
+    a chaotic set has the range and the mean exponent of all its motions.
+
+    Attractors from `before` keep their numbers and come first, reached or not, but for chaotic sets that motions have
+    left since. Their ``first`` goes on after the `n` motions of the parts.
     """
+    if before is None:
+        ranks, table = _ranked(found, sets)
+        return ranks, table | {"number": np.arange(len(table["counts"]))}
+    again, places = found_in(with_sets(sets, before.columns, 0), n)
+    ranks, table = _ranked([*found, again._replace(counts=0 * again.counts)], sets)
+    numbers = np.full(len(table["counts"]), -1)
+    kept = ranks.pop()[places]
+    numbers[kept[kept >= 0][::-1]] = before.numbers[kept >= 0][::-1]  # of two that are one now the first number
+    numbers[numbers < 0] = before.unused + np.arange(np.sum(numbers < 0))
+    order = np.argsort(numbers)
+    table = {name: column[order] for name, column in table.items()} | {"number": numbers[order]}
+    return [np.append(numbers, -1)[each] for each in ranks], table
+
+
+def _ranked(found: Sequence[Found], sets: ChaoticSets) -> tuple[list[NDArray[np.int64]], dict[str, NDArray[Any]]]:
+    """The order of the attractors of several parts, and what they are; see `number_attractors`."""
     marks, first = np.concatenate([f.marks for f in found]), np.concatenate([f.first for f in found])
-    columns = {name: np.concatenate([f.columns[name] for f in found]) for name in found[0].columns}
+    names = [name for name in found[0].columns if all(name in f.columns for f in found)]
+    columns = {name: np.concatenate([f.columns[name] for f in found]) for name in names}
     groups = chained(marks)
     n = int(groups.max(initial=-1)) + 1
     shown = np.array([np.flatnonzero(groups == k)[np.argmin(first[groups == k])] for k in range(n)], dtype=int)

@@ -37,7 +37,7 @@ class Observed(NamedTuple):
 class ChaoticSets(NamedTuple):
     """Chaotic sets, by their smallest X."""
 
-    cells: NDArray[np.int64]  # (m, 3) all that were seen
+    seen: Observed  # all that was seen, a row a cell
     own: NDArray[np.int64]  # (m,) the set of each
     observed: Observed  # one row a set
 
@@ -117,7 +117,7 @@ def chaotic_sets(parts: Iterable[Observed]) -> ChaoticSets:
     rank = np.empty(len(order), np.int64)
     rank[order] = np.arange(len(order))
     own = rank[own]
-    return ChaoticSets(rows.cells, own, _gathered(rows, own))
+    return ChaoticSets(rows, own, _gathered(rows, own))
 
 
 def chained(marks: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -132,13 +132,22 @@ def chained(marks: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.asarray(groups, np.int64)
 
 
+def neighbours(marks: NDArray[np.int64], others: NDArray[np.int64]) -> NDArray[np.int64]:
+    """For each row of `others` the row of `marks` that is nearest, and differs by 1 at most in every place; or -1."""
+    from scipy.spatial import cKDTree
+
+    if not len(marks):
+        return np.full(len(others), -1)
+    apart, places = cKDTree(marks).query(others, p=np.inf)
+    return np.where(apart <= 1.0, places, -1)
+
+
 def sets_of(sets: ChaoticSets, columns: Mapping[str, NDArray[Any]], discard: int) -> NDArray[np.int64]:
-    """The set that each motion was on, or -1."""
+    """The set that each motion was on, or that is next to it where it was not seen there; else -1."""
     chosen = on_sets(columns, discard)
-    numbers = {tuple(cell): own for cell, own in zip(sets.cells.tolist(), sets.own.tolist(), strict=True)}
     cells, inverse = np.unique(cells_of(columns, chosen), axis=0, return_inverse=True)
     labels = np.full(len(chosen), -1)
-    labels[chosen] = np.array([numbers[tuple(cell)] for cell in cells.tolist()], np.int64)[inverse.ravel()]
+    labels[chosen] = np.append(sets.own, -1)[neighbours(sets.seen.cells, cells)][inverse.ravel()]
     return labels
 
 

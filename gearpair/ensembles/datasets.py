@@ -115,8 +115,8 @@ def variables_of(
 
 
 def with_numbers(result: xr.Dataset) -> xr.Dataset:
-    """A dataset with the numbers of its attractors and chaotic sets as coordinates."""
-    names = [name for name in ("attractor_number", "set_number") if name in result.sizes]
+    """A dataset with the numbers of its attractors and chaotic sets as coordinates, from 0 where it has none."""
+    names = [name for name in ("attractor_number", "set_number") if name in result.sizes and name not in result.coords]
     return result.assign_coords({name: np.arange(result.sizes[name]) for name in names})
 
 

@@ -19,6 +19,7 @@ from gearpair._flow.watch import Watched, watch_starts
 from gearpair.ensembles.capture import joined, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of, with_numbers
 from gearpair.ensembles.escape_rates import EscapeRate, Persistence, escape_rate
+from gearpair.ensembles.labelling import Attractors, known_of, numbers_of
 from gearpair.ensembles.planes import RATES, attractor_variables
 from gearpair.motion.settling import MANY, nothing_known, settle_batch, transient_periods
 from gearpair.motion.trajectories import check_pairs, raise_if_capped
@@ -44,6 +45,7 @@ def survival(
     n_periods: int = 20_000,
     discard: int | None = None,
     confidence: float = 0.95,
+    attractors: Attractors | None = None,
     progress: bool = False,
 ) -> xr.Dataset:
     """How long each start takes to settle, watched for long: the survivors, and the mean life of chaos.
@@ -61,6 +63,8 @@ def survival(
         `gearpair.motion.transient_periods` when not given.
     confidence : float
         Of the intervals.
+    attractors : Attractors, optional
+        Found before, as for `gearpair.basins`: here the periodic ones count.
     progress : bool
         Show progress bars on stderr, each with the most mesh periods until attractors are looked for again.
 
@@ -107,12 +111,13 @@ def survival(
     if discard >= n_periods:
         raise ValueError(f"n_periods must be more than the {discard} that are discarded, got {n_periods}")
     n_periods, discard = (osc.base_periods(each) * osc.mesh_periods for each in (n_periods, discard))
-    known, watched, later = watched_starts(osc, starts, n_periods, progress=progress)
+    known, watched, later = watched_starts(osc, starts, n_periods, attractors, progress=progress)
     raise_if_capped(watched.status, starts)
     gone = (watched.owner >= 0) | (watched.status == ESCAPED)
     columns = {"start_x": starts[:, 0], "start_v": starts[:, 1]}
     columns["escape_time"] = np.where(gone, watched.periods, np.nan)
-    result = numbered(settled_columns(known.settled), 0, known.lasting)
+    before = None if attractors is None else numbers_of(attractors, periodic=True)
+    result = numbered(settled_columns(known.settled), 0, known.lasting, before)
     numbers, table = result.columns["attractor"], result.table
     columns["attractor"] = np.where(watched.owner >= 0, np.append(numbers, ON_ITS_WAY)[watched.owner], ON_ITS_WAY)
     columns["attractor"][watched.status == ESCAPED] = UNBOUNDED
@@ -170,7 +175,12 @@ def survival_along(
 
 
 def watched_starts(
-    osc: Oscillator, starts: NDArray[np.float64], n_periods: int, *, progress: bool = False
+    osc: Oscillator,
+    starts: NDArray[np.float64],
+    n_periods: int,
+    attractors: Attractors | None = None,
+    *,
+    progress: bool = False,
 ) -> tuple[Known, Watched, Settled]:
     """Watch starts (n, 2) until they are captured: the attractors, where each has come to, what the others become.
 
@@ -178,7 +188,7 @@ def watched_starts(
     The last has one row for each start that was not captured, settled from where it has come to.
     """
     settings = replace(MANY, n_watch=0).whole_cycles()  # the watch is this function's own
-    known = nothing_known(settings)
+    known = nothing_known(settings) if attractors is None else known_of(attractors, osc, settings)
     known = joined(osc, known, settle_batch([osc], starts[scouts(len(starts))], settings, known=known))
     n, n_periods, first_look = len(starts), osc.base_periods(n_periods), osc.base_periods(FIRST_LOOK)
     watched = Watched(np.full(n, OK), np.full(n, -1), np.zeros(n, np.int64), starts.copy())
@@ -235,8 +245,9 @@ def _survivor_variables(times: NDArray[np.float64], discard: int, n_periods: int
 def _attractor_variables(table: dict[str, Any], columns: dict[str, Any], discard: int) -> dict[str, Any]:
     """What each attractor is, with its shares of the starts and of the escapes after `discard`."""
     n, attractor, late = len(table["counts"]), columns["attractor"], columns["escape_time"] > discard
-    table = table | {"counts": np.bincount(attractor[attractor >= 0], minlength=n)}
-    escapes = np.bincount(attractor[late & (attractor >= 0)], minlength=n) / max(int(late.sum()), 1)
+    places = np.searchsorted(table["number"], attractor)
+    table = table | {"counts": np.bincount(places[attractor >= 0], minlength=n)}
+    escapes = np.bincount(places[late & (attractor >= 0)], minlength=n) / max(int(late.sum()), 1)
     variables = attractor_variables(table, len(attractor))
     return variables | variables_of({"escape_share": escapes}, ("attractor_number",), (n,))
 

@@ -16,15 +16,17 @@ from gearpair._flow.states import Known
 from gearpair.ensembles.capture import (
     Found,
     Numbered,
+    Numbers,
     found_in,
     known_attractors,
     leading,
     number_attractors,
     numbered,
     scouts,
+    seen_before,
     with_sets,
 )
-from gearpair.ensembles.chaos import chaotic_sets, observed_in, scouted
+from gearpair.ensembles.chaos import chaotic_sets, observed_in
 from gearpair.ensembles.datasets import (
     OF_PLANES,
     check_origin,
@@ -35,7 +37,8 @@ from gearpair.ensembles.datasets import (
     with_numbers,
 )
 from gearpair.ensembles.escape_rates import EscapeRate, Persistence
-from gearpair.ensembles.stores import add_column, add_table, by_store, column_of, read_blocks, stored
+from gearpair.ensembles.labelling import Attractors, known_of, numbers_of
+from gearpair.ensembles.stores import add_column, add_table, by_store, column_of, fingerprint, read_blocks, stored
 from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import Motion, motions_from
 from gearpair.motion.settling import MANY, BatchOptions, SettleSettings, settle_batch
@@ -61,6 +64,7 @@ def basins(
     x: ArrayLike,
     v: ArrayLike,
     *,
+    attractors: Attractors | None = None,
     store: str | Path | None = None,
     client: Client | None = None,
     progress: bool = False,
@@ -73,6 +77,10 @@ def basins(
     osc : Oscillator
     x, v : array_like of float, shapes (n_x,) and (n_v,)
         Initial X and X'.
+    attractors : Attractors, optional
+        Motions of `osc` found before, by `gearpair.attractors` with the same `settling`: they are not looked for again
+        and keep their numbers, reached or not. Others that starts lead to have the next ones. What was then seen of
+        chaotic sets counts, too: a set that motions have left is a transient.
     store : path, optional
         Write the result to a Zarr store, block by block, and return it from there: memory then holds one block. The
         same call goes on with a store not yet finished; one of another call is refused. Codes stand for words, which
@@ -138,11 +146,11 @@ def basins(
     for name, values in (("x", xs), ("v", vs)):
         if values.ndim != 1 or values.size == 0:
             raise ValueError(f"{name} must be a non-empty sequence of numbers, got shape {values.shape}")
-    plane = Plane.of(osc, xs, vs, MANY.having(settling, BatchOptions))
+    plane = Plane.of(osc, xs, vs, MANY.having(settling, BatchOptions), attractors)
     if by_store(store, client):
         return stored(plane, store, partial(_number, plane), client=client, progress=progress)
     columns = plane.columns(0, len(vs), progress=progress)
-    result = numbered(columns, plane.settings.before_watch(osc), plane.known.lasting)
+    result = numbered(columns, plane.settings.before_watch(osc), plane.known.lasting, plane.before)
     variables = variables_of(result.columns, ("v", "x"), (len(vs), len(xs))) | numbered_variables(
         result, len(columns["status"])
     )
@@ -157,10 +165,21 @@ class Plane:
     axes: dict[str, NDArray[np.float64]]
     settings: SettleSettings
     known: Known
+    before: Numbers | None = None
 
     @classmethod
-    def of(cls, osc: Oscillator, xs: NDArray[np.float64], vs: NDArray[np.float64], settings: SettleSettings) -> Plane:
-        """With the attractors that some of the starts reach, which are the same however the plane is cut."""
+    def of(
+        cls,
+        osc: Oscillator,
+        xs: NDArray[np.float64],
+        vs: NDArray[np.float64],
+        settings: SettleSettings,
+        attractors: Attractors | None = None,
+    ) -> Plane:
+        """With the attractors, if given, or those that some of the starts reach: the same however the plane is cut."""
+        if attractors is not None:
+            known = known_of(attractors, osc, settings)
+            return cls(osc, {"v": vs, "x": xs}, settings, known, numbers_of(attractors))
         n = len(xs) * len(vs)
         rows, columns = np.divmod(scouts(n), len(xs))
         scouting = np.stack([xs[columns], vs[rows]], axis=1)
@@ -169,7 +188,11 @@ class Plane:
     @property
     def identity(self) -> dict[str, str]:
         """What the numbers depend on besides the axes."""
-        return {"kind": "basins", "oscillator": repr(self.osc), "settings": repr(self.settings)}
+        same = {"kind": "basins", "oscillator": repr(self.osc), "settings": repr(self.settings)}
+        if self.before is None:
+            return same
+        parts = self.before.numbers, self.known.settled.points, self.known.lasting, *self.before.observed
+        return same | {"attractors": fingerprint(np.concatenate([np.ravel(part) for part in parts]))}
 
     def columns(self, first: int, last: int, *, cores: bool = True, progress: bool = False) -> dict[str, NDArray[Any]]:
         """The results for rows `first` to `last` of X', as codes."""
@@ -187,20 +210,20 @@ def _number(plane: Plane, group: Group) -> None:
     names = [*ATTRACTOR_COLUMNS, *OF_PLANES, "lasted"]
     discard, n_x, n = plane.settings.before_watch(plane.osc), len(plane.axes["x"]), len(plane.axes["v"])
     observed = [observed_in(columns, discard) for _first, _last, columns in read_blocks(plane, group, names)]
-    sets = chaotic_sets([*observed, scouted(plane.known.lasting)])
+    sets = chaotic_sets([*observed, seen_before(plane.known.lasting, plane.before)])
     status = column_of(group, "status")
     found: list[Found] = []
     for first, last, columns in read_blocks(plane, group, names):
         columns = with_sets(sets, columns, discard)
         status[first:last] = columns["status"].reshape(last - first, n_x)
         found.append(found_in(columns, first * n_x)[0])
-    numbers, table = number_attractors(found, sets)
+    numbers, table = number_attractors(found, sets, plane.before, n * n_x)
     leads_to = np.zeros((len(sets.observed.motions), len(table["counts"])), np.int64)
     arrays = {name: add_column(plane, group, name, np.int64) for name in ("chaotic_set", "attractor")}
     for part, (first, last, columns) in zip(numbers, read_blocks(plane, group, names), strict=True):
         columns = with_sets(sets, columns, discard)
         columns["attractor"] = part[found_in(columns, first * n_x)[1]]
-        leads_to += leading(columns, sets, len(table["counts"]))
+        leads_to += leading(columns, sets, table["number"])
         for name, array in arrays.items():
             array[first:last] = columns[name].reshape(last - first, n_x)
     add_table(group, numbered_variables(Numbered({}, table, sets, leads_to), n * n_x, coded=True))
@@ -239,7 +262,8 @@ def attractor_variables(
     columns |= {"attractor_x": table["section_x"], "attractor_v": table["section_v"], "attractor_share": share}
     if errors:
         columns["attractor_share_error"] = np.sqrt(share * (1.0 - share) / n)
-    return variables_of(columns, ("attractor_number",), share.shape, coded=coded)
+    numbers: dict[str, Any] = {"attractor_number": (("attractor_number",), table["number"], {})}
+    return numbers | variables_of(columns, ("attractor_number",), share.shape, coded=coded)
 
 
 @checked

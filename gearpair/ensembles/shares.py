@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from gearpair._checks import check_count, check_reach, checked
+from gearpair._checks import check_count, checked
 from gearpair.ensembles.capture import known_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, with_numbers
+from gearpair.ensembles.finding import random_starts
+from gearpair.ensembles.labelling import Attractors, known_of, numbers_of
 from gearpair.ensembles.planes import attractor_variables, basins
 from gearpair.motion.names import motions_of
 from gearpair.motion.settling import MANY, BatchOptions, SettleOptions, settle_batch
@@ -28,6 +30,7 @@ def basin_stability(
     x_reach: tuple[float, float] = (-4.0, 4.0),
     v_reach: tuple[float, float] = (-3.0, 3.0),
     seed: int = 0,
+    attractors: Attractors | None = None,
     **settling: Unpack[SettleOptions],
 ) -> xr.Dataset:
     """The share of random starts that each attractor takes, with its standard error.
@@ -41,6 +44,8 @@ def basin_stability(
         Smallest and largest X and X' of the rectangle.
     seed : int
         Of the random numbers: the same seed draws the same starts.
+    attractors : Attractors, optional
+        Found before, as for `basins`.
     **settling
         See `gearpair.motion.SettleOptions`.
 
@@ -63,17 +68,13 @@ def basin_stability(
     n = check_count("n", n)
     starts = random_starts(n, x_reach, v_reach, seed)
     settings = MANY.having(settling)
-    known = known_attractors(osc, starts[scouts(n)], settings)
+    if attractors is None:
+        known, before = known_attractors(osc, starts[scouts(n)], settings), None
+    else:
+        known, before = known_of(attractors, osc, settings), numbers_of(attractors)
     out = settle_batch([osc], starts, settings, known=known)
-    table = numbered(settled_columns(out), settings.before_watch(osc), known.lasting).table
+    table = numbered(settled_columns(out), settings.before_watch(osc), known.lasting, before).table
     return with_numbers(dataset(osc, attractor_variables(table, n, errors=True), {}, n=n))
-
-
-def random_starts(n: int, x_reach: tuple[float, float], v_reach: tuple[float, float], seed: int) -> NDArray[np.float64]:
-    """Starts (n, 2) drawn evenly from a rectangle, or a ValueError that says what is wrong with it."""
-    (x_low, x_high), (v_low, v_high) = check_reach("x_reach", x_reach), check_reach("v_reach", v_reach)
-    generator = np.random.default_rng(check_count("seed", seed, at_least=0))
-    return generator.uniform((x_low, v_low), (x_high, v_high), (n, 2))
 
 
 @checked

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
@@ -12,8 +13,9 @@ from gearpair._checks import check_count, check_number, checked
 from gearpair._flow.states import TRANSIENT
 from gearpair.ensembles.capture import known_attractors, numbered, scouts
 from gearpair.ensembles.datasets import dataset, oscillators_along, settled_columns, variables_of
+from gearpair.ensembles.finding import random_starts
+from gearpair.ensembles.labelling import ESCAPES, LINGERS, Attractors, check_of, gathered, numbers_of, surveyed
 from gearpair.ensembles.planes import ATTRACTOR_COLUMNS
-from gearpair.ensembles.shares import random_starts
 from gearpair.motion.settling import MANY, SettleOptions, SettleSettings, settle_batch
 from gearpair.oscillator import Oscillator
 from gearpair.quantities import attributes
@@ -23,7 +25,6 @@ if TYPE_CHECKING:
 
 SMALL_STEPS = 32  # in which a motion that changes much from one value to the next is carried there
 ARRIVED = 1e-3  # how near, in sizes, to the motion found there
-ESCAPES, LINGERS = -2, -3  # what an attractor that has ended tips to where that is no attractor
 
 
 @checked
@@ -37,6 +38,7 @@ def continue_attractors(
     v_reach: tuple[float, float] = (-3.0, 3.0),
     seed: int = 0,
     nearest: float = 0.3,
+    attractors: Attractors | None = None,
     **settling: Unpack[SettleOptions],
 ) -> xr.Dataset:
     """The attractors at each value of a parameter, matched from value to value, with their shares of random starts.
@@ -50,6 +52,9 @@ def continue_attractors(
     nearest : float
         Attractors of neighbouring values are one if their smallest and largest X differ by no more than this share of
         their size, which is the distance of these two, and half the backlash (1) at least.
+    attractors : Attractors, optional
+        Those of `osc` itself, of `gearpair.attractors`: the first value is matched with them, and goes on with their
+        numbers.
 
     Returns
     -------
@@ -81,36 +86,26 @@ def continue_attractors(
     nearest = check_number("nearest", nearest, above=0.0)
     starts = random_starts(check_count("n", n), x_reach, v_reach, seed)
     settings = MANY.having(settling)
+    found = attractors
+    if found is not None:
+        check_of(found, osc)
+        found = replace(found, starts=starts, settings=settings)
     entries: list[tuple[int, int, dict[str, float]]] = []  # row, number, what there is to tell
-    places: dict[int, NDArray[np.float64]] = {}  # number -> the extremes it was last seen with
-    points: dict[int, NDArray[np.float64]] = {}  # number at the value before -> a point of it
     lingering = np.zeros(len(checked))
     for i, each in enumerate(oscillators):
-        before = list(points)
-        here = np.concatenate([starts, *(points[number][np.newaxis] for number in before)])
-        first = np.concatenate([scouts(n), np.arange(n, len(here))])
-        known = known_attractors(each, here[first], settings)
-        out = settle_batch([each], here, settings, known=known)
-        result = numbered(settled_columns(out), settings.before_watch(each), known.lasting)
-        labels, table = result.columns["attractor"], result.table
-        extremes = np.column_stack([table["x_min"], table["x_max"]])
-        still = result.columns["status"] == TRANSIENT
-        lingering[i] = still[:n].mean()
-        leads_to = dict(zip(before, np.where(still, LINGERS, labels)[n:].tolist(), strict=True))
-        followed = {
-            number
-            for number, k in leads_to.items()
-            if k >= 0 and table["period"][k] and _apart(extremes[k], places[number]) > nearest
-            and _goes_on(osc, parameter, checked[i - 1 : i + 1], points[number], extremes[k], nearest, settings)
-        }  # fmt: skip
-        given, tipped = _matched(leads_to, places, extremes, nearest, followed)
-        counts = np.bincount(labels[:n][labels[:n] >= 0], minlength=len(extremes))
-        told = {"share": counts / n, **{name: table[name] for name in ATTRACTOR_COLUMNS}}
-        entries += [(i, number, {name: column[k] for name, column in told.items()}) for k, number in enumerate(given)]
+        tipped: dict[int, int] = {}
+        if found is None:
+            found = surveyed(each, starts, settings)
+        else:
+            found, tipped = followed(found, each, parameter, nearest)
+        told = {"share": found.shares, **{name: found.columns[name] for name in ATTRACTOR_COLUMNS}}
+        entries += [
+            (i, number, {name: column[k] for name, column in told.items()}) for k, number in enumerate(found.numbers)
+        ]
         entries += [(i, number, {"tips_to": to}) for number, to in tipped.items()]
-        points = {number: out.points[table["first"][k], 0] for k, number in enumerate(given)}
-        places |= {number: extremes[k] for k, number in enumerate(given)}
-    shape = len(checked), len(places)
+        lingering[i] = np.mean(found.labels == LINGERS)
+    assert found is not None  # there is one value at least
+    shape = len(checked), numbers_of(found).unused
     columns = {name: np.full(shape, np.nan) for name in ("share", "x_min", "x_max", "exponent")}
     columns |= {name: np.full(shape, -1) for name in ("status", "impact_state", "tips_to")}
     columns["period"] = np.zeros(shape, np.int64)
@@ -121,6 +116,35 @@ def continue_attractors(
     variables = variables_of(named, (parameter, "attractor"), shape)
     variables["transient_share"] = (parameter, lingering, attributes("transient_share"))
     return dataset(osc, variables, {parameter: checked}).assign_coords(attractor=np.arange(shape[1]))
+
+
+def followed(before: Attractors, osc: Oscillator, parameter: str, nearest: float) -> tuple[Attractors, dict[int, int]]:
+    """The attractors of `osc`, another value of a parameter, numbered as `before`, and where those go that have ended.
+
+    See `continue_attractors`; the starts and the settings are those of `before`.
+    """
+    settings, starts, n = before.settings, before.starts, len(before.starts)
+    points = dict(zip(before.numbers, before.evidence.settled.points[:, 0], strict=True))
+    here = np.concatenate([starts, *(point[np.newaxis] for point in points.values())])
+    first = np.concatenate([scouts(n), np.arange(n, len(here))])
+    known = known_attractors(osc, here[first], settings)
+    out = settle_batch([osc], here, settings, known=known)
+    result = numbered(settled_columns(out), settings.before_watch(osc), known.lasting)
+    table, places = result.table, {number: np.array(place) for number, place in before.places.items()}
+    extremes = np.column_stack([table["x_min"], table["x_max"]])
+    ends = np.array([before.oscillator.parameter(parameter), osc.parameter(parameter)])
+    goals = np.where(result.columns["status"] == TRANSIENT, LINGERS, result.columns["attractor"])[n:].tolist()
+    leads_to = dict(zip(points, goals, strict=True))
+    carried = {
+        number
+        for number, k in leads_to.items()
+        if k >= 0 and table["period"][k] and _apart(extremes[k], places[number]) > nearest
+        and _goes_on(osc, parameter, ends, points[number], extremes[k], nearest, settings)
+    }  # fmt: skip
+    given, tipped = _matched(leads_to, places, extremes, nearest, carried)
+    ended = {number: place for number, place in before.places.items() if number not in given}
+    numbers = np.array(given, np.int64)
+    return gathered(osc, starts, settings, out, result, known.lasting, numbers, ended), tipped
 
 
 def _apart(extremes: NDArray[np.float64], others: NDArray[np.float64]) -> Any:

@@ -67,7 +67,8 @@ def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -
     still = result.status.values == Status.TRANSIENT
     if still.any():
         motions, colours = [*motions, LINGERING], [*colours, to_rgb(motion_colour(LINGERING))]
-    numbers = np.where(still, len(motions), result.attractor.values + 1)
+    places = np.searchsorted(np.unique(result.attractor_number), result.attractor)
+    numbers = np.where(still, len(motions), np.where(result.attractor >= 0, places + 1, 0))
     _map(ax, result, numbers, [(1.0, 1.0, 1.0), *colours])
     if legend and len(motions) > MOST_NAMED:
         add_motion_legend(ax, motions)
