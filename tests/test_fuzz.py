@@ -15,6 +15,7 @@ from tests.support import ROOT
 
 ROOMS = ("motion", "ensembles", "bifurcations", "boundaries", "design", "methods", "teeth", "article", "plotting")
 OSC = gp.Oscillator()
+CRISIS = gp.Oscillator(mesh_frequency=1.219, damping_ratio=0.011)
 QUICK = {"n_transient": 20, "n_exponent": 20, "n_watch": 20}
 SPEEDS = [2000.0, 4000.0]
 TEETH = {"pinion_torque_nm": 100.0, "backlash_um": 80.0, "transmission_error_um": 5.0, "damping_ratio": 0.1}
@@ -113,6 +114,10 @@ CALLS = {
         "backward_map": lambda: {"osc": OSC, "x": [0.0, 1.0], "v": 0.0, "n": 2},
         "critical_shock": lambda: {"osc": OSC, "state": made("double"), "n_phases": 1, "n_directions": 4, **QUICK},
         "edge_state": lambda: {"osc": OSC, "a": [-2.3365, 1.5426], "b": made("state"), "n_periods": 20},
+        "homoclinic_tangency": lambda: {
+            "orbit": gp.periodic_orbit(CRISIS, -0.29164, -1.2262, 2),
+            **{"parameter": "damping_ratio", "lower": 0.0105, "upper": 0.0115, "spacing": 0.1, "length": 10.0},
+        },
         "manifolds": lambda: {"orbit": gp.periodic_orbit(OSC, -1.5688, -1.0135, 1), "length": 1.0, "spacing": 0.1},
     },
     "design": {

@@ -4,15 +4,19 @@ from gearpair.boundaries.edges import EdgeState, EdgeStatus, edge_state
 from gearpair.boundaries.growing import Manifolds, manifolds
 from gearpair.boundaries.sections import at_phase, backward_map
 from gearpair.boundaries.shocks import CriticalShock, critical_shock
+from gearpair.boundaries.tangencies import HomoclinicTangency, TangencyStatus, homoclinic_tangency
 
 __all__ = [
     "CriticalShock",
     "EdgeState",
     "EdgeStatus",
+    "HomoclinicTangency",
     "Manifolds",
+    "TangencyStatus",
     "at_phase",
     "backward_map",
     "critical_shock",
     "edge_state",
+    "homoclinic_tangency",
     "manifolds",
 ]

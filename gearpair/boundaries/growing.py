@@ -12,6 +12,7 @@ from gearpair._checks import check_count, check_number, check_reach, checked
 from gearpair._equality import equal_by_value
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.newton import derivative
+from gearpair._flow.walk import OK
 from gearpair.bifurcations.orbits import PeriodicOrbit
 from gearpair.boundaries.sections import PeriodMap, backward, forward
 from gearpair.motion.stability import multipliers_of
@@ -120,7 +121,7 @@ def manifolds(
     complete = True
     for k in range(orbit.period):
         for name, branch in branches_at(orbit, k, window, spacing):
-            curve, ended = branch.grown(length, max_points)
+            curve, _places, ended = branch.grown(length, max_points)
             curves[name].append(curve)
             complete &= ended
     return Manifolds(orbit, tuple(curves["stable"]), tuple(curves["unstable"]), spacing, complete)
@@ -176,26 +177,39 @@ class Branch:
         self._step, self._period, self._seed, self._spacing = step, period, seed, spacing
         self._middle, self._half = window.mean(axis=1), 0.5 * np.ptp(window, axis=1)
 
-    def grown(self, length: float, max_points: int) -> tuple[NDArray[np.float64], bool]:
-        """The curve (n, 2) from the orbit outwards, and whether nothing is left to grow."""
+    def at(self, place: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The point (2,) at a place of the branch, and the direction (2,) of the curve there, outwards."""
+        n, way, m = int(place), (1.0, self._step.way), np.empty((2, 2))
+        x, v = (self._seed.points(np.array([place - n]))[0] * way).tolist()
+        status, x, v = derivative(self._step.cells, x, v, n * self._period, m, np.empty(TERMS))
+        if status != OK:
+            return np.full(2, np.nan), np.full(2, np.nan)
+        direction = (m @ (self._seed.direction * way)) * way
+        return np.array([x, v]) * way, direction / float(np.hypot(*direction))
+
+    def grown(self, length: float, max_points: int) -> tuple[NDArray[np.float64], NDArray[np.float64], bool]:
+        """The curve (n, 2) from the orbit outwards, the places (n,) of its points, and whether nothing is left to grow.
+
+        A place is the number of the image of the first piece, and the share of this piece.
+        """
         t = np.linspace(0.0, 1.0, SEEDS)
         points, joined = self._seed.points(t), np.ones(SEEDS - 1, bool)
         points[-1] = self._step(points[:1], self._period)[0]  # so that each image begins where the one before it ends
-        curve = [self._seed.point[None]]
+        curve = [np.append(self._seed.point, -np.inf)[None]]
         total, count, n = 0.0, 1, 0
         while True:
             t, points, joined, full = self._filled(t, points, joined, n, max_points - count)
-            curve += pieces_of(t, points, joined, n > 0)
+            curve += pieces_of(t, np.column_stack([points, n + t]), joined, n > 0)
             added = np.hypot(*np.diff(points, axis=0)[joined].T)
             total, count = total + float(added.sum()), count + len(points)
             grown = float(np.hypot(*(points - self._seed.point).T).max())
             ended = not joined.any() or (grown > self._spacing and added.sum() < STANDSTILL * self._spacing)
             if ended or total >= length or not full:
-                return cut(joined_pieces(curve), length), ended and full
+                return *cut(joined_pieces(curve), length), ended and full
             keep = np.concatenate([joined, [False]]) | np.concatenate([[False], joined])
             joined = (joined & keep[1:])[np.flatnonzero(keep)[:-1]]
             if count + keep.sum() > max_points:
-                return cut(joined_pieces(curve), length), False
+                return *cut(joined_pieces(curve), length), False
             t, points, n = t[keep], self._step(points[keep], self._period), n + 1
             joined &= self._followed(points)
 
@@ -239,11 +253,11 @@ class Branch:
 def pieces_of(
     t: NDArray[np.float64], points: NDArray[np.float64], joined: NDArray[np.bool_], follows: bool
 ) -> list[NDArray[np.float64]]:
-    """The runs of joined points (n, 2) of one image, which are at `t`: a row of nan between them and for lost ends.
+    """The runs of joined points, one a row, of one image, at `t`: a row of nan between them and for lost ends.
 
     One that `follows` another begins where that ends, and leaves this point out.
     """
-    gap = np.full((1, 2), np.nan)
+    gap = np.full((1, points.shape[1]), np.nan)
     out = [gap] if t[0] > 0.0 else []
     for run in np.split(points, np.flatnonzero(~joined) + 1):
         out += [run, gap] if len(run) > 1 else [gap]
@@ -259,10 +273,11 @@ def joined_pieces(curve: list[NDArray[np.float64]]) -> NDArray[np.float64]:
     return rows[~(lost & np.concatenate([lost[1:], [True]]))]
 
 
-def cut(curve: NDArray[np.float64], length: float) -> NDArray[np.float64]:
-    """The curve up to the first point at `length`."""
-    sizes = np.nan_to_num(np.hypot(*np.diff(curve, axis=0).T))
-    return curve[: int(np.searchsorted(np.cumsum(sizes), length)) + 2]
+def cut(rows: NDArray[np.float64], length: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The points (n, 2) and the places (n,) of a curve up to the first point at `length`."""
+    sizes = np.nan_to_num(np.hypot(*np.diff(rows[:, :2], axis=0).T))
+    rows = rows[: int(np.searchsorted(np.cumsum(sizes), length)) + 2]
+    return np.ascontiguousarray(rows[:, :2]), rows[:, 2]
 
 
 def length_of(curve: NDArray[np.float64]) -> float:
