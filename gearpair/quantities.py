@@ -80,6 +80,7 @@ ROWS = (
     Quantity(
         "exponent", "largest Lyapunov exponent per unit tau", "lambda_1", r"\lambda_1", axis="largest exponent {}"
     ),
+    Quantity("smallest_exponent", "smallest Lyapunov exponent per unit tau", "lambda_2", r"\lambda_2"),
     Quantity("exponent_error", "standard error of the largest exponent"),
     Quantity("section_x", "{} on the section, the smallest of the cycle; nan unless periodic", "X"),
     Quantity("section_v", "{} there", "X'"),
