@@ -141,8 +141,8 @@ class GearDrive:
         damping_ratio : float
             zeta, from which ``c_h = 2 zeta sqrt(k_m m_e)``.
         pinion_blank, gear_blank : GearBlank
-            Rim, web, hub and density, and what turns with the gear; solid steel discs unless given.
-        coupling : {"ring", "summed"}
+            Rim, web and hub, and what turns with the gear; solid discs of the pair's materials unless given.
+        coupling : {"ring", "summed", "clamped"}
             As in `mesh_stiffness`.
         n_levels : int
             Levels of the staircase that stands for the mesh stiffness.
@@ -345,7 +345,7 @@ def _drawn(pair: SpurPair, coupling: Coupling, n_levels: int, blanks: dict[str, 
     for who, gear in (("pinion", pair.pinion), ("gear", pair.gear)):
         drawn |= {f"{who}_base_radius_mm": gear.base_radius_mm, f"{who}_blank": (blank := blanks[who])}
         if blank is not None:
-            drawn[f"{who}_inertia_kg_m2"] = blank.inertia_kg_m2(gear, pair.face_width_mm)
+            drawn[f"{who}_inertia_kg_m2"] = blank.inertia_kg_m2(gear)
     return drawn
 
 

@@ -55,7 +55,7 @@ CHANGED = {
 }
 # A value that the library refuses, and its sentence.
 REFUSED = {
-    "stiffness": ("gear_teeth", "9", "gear_teeth = 9 is undercut: gear_shift is 0 and must be at least 0.4736"),
+    "stiffness": ("gear_teeth", "8", "contact ratio is 0.91"),
     "frequency_sweep": (
         "damping_ratio",
         "-0.05",
@@ -64,11 +64,7 @@ REFUSED = {
     "damping_sweep": ("mesh_frequency", "0", "mesh_frequency must be a finite number above 0, got 0.0"),
     "method": ("mesh_frequency", "0", "mesh_frequency must be a finite number above 0, got 0.0"),
     "reproduction": ("n_values", "1", "n_values must be a whole number of at least 2, got 1"),
-    "speed_chart": (
-        "pinion_teeth",
-        "12",
-        "pinion_teeth = 12 is undercut: pinion_shift is 0 and must be at least 0.2981",
-    ),
+    "speed_chart": ("pinion_teeth", "8", "contact ratio is 0.91"),
     "library": ("damping_ratio", "-1", "damping_ratio must be a finite number at least 0 and at most 100, got -1.0"),
     "impacts": ("error_amplitude", "-1", "error_amplitude must be a finite number at least 0, got -1.0"),
 }

@@ -28,13 +28,15 @@ class IsoDynamicFactor:
     resonance_ratio : ndarray of float
         N, the speed over `resonance_rpm`.
     k_v : ndarray of float
-        The factor.
+        The factor; nan outside the standard's range.
     resonance_rpm : float
         n_E1, where the mesh frequency meets the natural frequency.
     lower_limit : float
         N_S, where the main resonance begins.
     specific_load_n_per_mm : float
         F_t K_A / b.
+    outside_range : str
+        Why the pair is outside the standard's range, in a sentence; empty where it is not.
     """
 
     speed_rpm: NDArray[np.float64]
@@ -43,6 +45,7 @@ class IsoDynamicFactor:
     resonance_rpm: float
     lower_limit: float
     specific_load_n_per_mm: float
+    outside_range: str = ""
 
 
 @checked
@@ -60,7 +63,8 @@ def iso_dynamic_factor(
     Parameters
     ----------
     drive : GearDrive
-        Of `GearDrive.from_pair`, with a torque: the formulas need its teeth and its load.
+        Of `GearDrive.from_pair`: the formulas need its teeth. Without a torque, or with shifts that the standard's
+        formula for the stiffness does not allow, there is no factor, and `IsoDynamicFactor.outside_range` says why.
     speeds_rpm : array_like of float, shape (n,)
         Of the pinion.
     base_pitch_um, profile_um : float
@@ -85,8 +89,8 @@ def iso_dynamic_factor(
         K_v = C_v1 B_p + C_v2 B_f + C_v4 B_k + 1              up to 1.15
         K_v = C_v5 B_p + C_v6 B_f + C_v7                      from 1.5, linear in N from 1.15 to 1.5
 
-    c' and c_gamma are those of `iso_stiffness`. m_red is the equivalent mass of the drive over the face width, with
-    what turns with the gears, where the standard's formula takes discs.
+    c' and c_gamma are those of `iso_stiffness` at this load. m_red is the equivalent mass of the drive over the face
+    width, with what turns with the gears, where the standard's formula takes discs.
 
     Examples
     --------
@@ -103,21 +107,27 @@ def iso_dynamic_factor(
     profile_um = check_number("profile_um", profile_um, at_least=0.0)
     application_factor = check_number("application_factor", application_factor, above=0.0)
     pair = drive.mesh.pair
-    stiffness = iso_stiffness(pair)
-    load = abs(drive.pinion_torque_nm) * 1e3 / pair.pinion.pitch_radius_mm / pair.face_width_mm * application_factor
-    if load == 0.0:
-        raise ValueError("pinion_torque_nm must not be 0: K_v is a factor of the load")
-    unit = stiffness.single / load
-    relief = 1.0 if relief_um is None else abs(1.0 - unit * check_number("relief_um", relief_um, at_least=0.0))
-    deviations = np.array([unit * base_pitch_um, unit * profile_um])
-    reduced = drive.equivalent_mass_kg / pair.face_width_mm  # kg/mm
-    resonance = 30_000.0 / (math.pi * pair.pinion_teeth) * math.sqrt(stiffness.mesh / reduced)
+    width = pair.contact_width_mm
+    load = abs(drive.pinion_torque_nm) * 1e3 / pair.pinion.pitch_radius_mm / width * application_factor
+    speeds = check_array("speeds_rpm", speeds_rpm, at_least=0.0)
+    relief_um = None if relief_um is None else check_number("relief_um", relief_um, at_least=0.0)
     lower = 0.85 if load >= 100.0 else 0.5 + 0.35 * math.sqrt(load / 100.0)
+    try:
+        if load == 0.0:
+            raise ValueError("K_v is a factor of the load, and pinion_torque_nm is 0")
+        stiffness = iso_stiffness(pair, specific_load_n_per_mm=load)
+    except ValueError as refusal:
+        nothing = np.full_like(speeds, np.nan)
+        return IsoDynamicFactor(speeds, nothing, nothing.copy(), math.nan, lower, load, str(refusal))
+    unit = stiffness.single / load
+    relief = 1.0 if relief_um is None else abs(1.0 - unit * relief_um)
+    deviations = np.array([unit * base_pitch_um, unit * profile_um])
+    reduced = drive.equivalent_mass_kg / width  # kg/mm
+    resonance = 30_000.0 / (math.pi * pair.pinion_teeth) * math.sqrt(stiffness.mesh / reduced)
     sub, main, above, rest = _coefficients(pair.contact_ratio)
     slow = float(sub[:2] @ deviations + sub[2] * relief)
     peak = float(main[:2] @ deviations + main[2] * relief) + 1.0
     fast = float(above @ deviations) + rest
-    speeds = check_array("speeds_rpm", speeds_rpm, at_least=0.0)
     ratio = speeds / resonance
     between = fast + (peak - fast) / (SUPERCRITICAL - MAIN_RESONANCE) * (SUPERCRITICAL - ratio)
     factor = np.select(

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 OF_DRIVE = ("pinion_torque_nm", "backlash_um", "transmission_error_um", "damping_ratio")
-OF_PAIR = tuple(field.name for field in fields(SpurPair) if not field.name.endswith("teeth"))
+OF_PAIR = tuple(field.name for field in fields(SpurPair) if not field.name.endswith(("teeth", "material")))
 FACTORS = {name: (0.5, 2.0) for name in OF_DRIVE} | {"addendum": (0.95, 1.05)}
 # What is kept of a range of speeds, by the names of the worst of it.
 OUTCOMES = {
@@ -123,4 +123,5 @@ def _value(drive: GearDrive, name: str) -> float:
         raise ValueError(f"unknown name {name!r}; what can be changed is {', '.join((*OF_DRIVE, *OF_PAIR))}")
     if drive.mesh is None:
         raise ValueError(f"{name} can be changed only where the drive comes from GearDrive.from_pair")
-    return float(getattr(drive.mesh.pair, name))
+    present = getattr(drive.mesh.pair, name)
+    return np.nan if present is None else float(present)  # nan: it follows from others

@@ -13,7 +13,7 @@ from gearpair.plotting.style import BOUNDARY, INK, new_axes, note
 from gearpair.quantities import axis_label
 from gearpair.teeth.finite_elements import MEASURES, FiniteElementBody
 from gearpair.teeth.meshing import MeshStiffness
-from gearpair.teeth.spurpair import SpurGear
+from gearpair.teeth.spurgear import SpurGear
 from gearpair.teeth.tooth_profile import Root, ToothProfile
 
 Array = NDArray[np.float64]
@@ -56,7 +56,7 @@ def per_width(mesh: MeshStiffness) -> float:
     >>> round(mesh.mean * per_width(mesh), 1)
     19.2
     """
-    return 1e-6 / mesh.pair.face_width_mm
+    return 1e-6 / mesh.pair.contact_width_mm
 
 
 @checked
@@ -264,7 +264,7 @@ def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Seq
     ('deviation (%)', 4)
     """
     upper, lower = axes
-    unit = mesh.pair.youngs_modulus_gpa * 1e9 * mesh.pair.face_width_mm * 1e-3
+    unit = body.body.material.youngs_modulus_gpa * 1e9 * mesh.pair.contact_width_mm * 1e-3
     fast = unit * sum(v for name, v in mesh.compliance_m_per_n.items() if name.startswith(body.who))
     upper.plot(mesh.path, fast, color=INK, label="potential energy and foundation formula")
     lower.axhline(0.0, color=BOUNDARY, linewidth=0.7)

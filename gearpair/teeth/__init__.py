@@ -4,7 +4,8 @@ from gearpair.teeth.blank import GearBlank
 from gearpair.teeth.finite_elements import FiniteElementBody, double_contact_stiffness, finite_element_bodies
 from gearpair.teeth.iso6336 import IsoStiffness, iso_stiffness
 from gearpair.teeth.meshing import MeshStiffness, mesh_stiffness
-from gearpair.teeth.spurpair import SpurGear, SpurPair
+from gearpair.teeth.spurgear import Material, SpurGear
+from gearpair.teeth.spurpair import SpurPair
 from gearpair.teeth.tooth_profile import ToothProfile
 from gearpair.teeth.transmission_error import error_harmonics, error_orders, profile_error, tip_relief
 
@@ -12,6 +13,7 @@ __all__ = [
     "FiniteElementBody",
     "GearBlank",
     "IsoStiffness",
+    "Material",
     "MeshStiffness",
     "SpurGear",
     "SpurPair",

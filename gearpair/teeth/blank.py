@@ -7,10 +7,11 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 
 from gearpair._checks import check_number
-from gearpair.teeth.spurpair import SpurGear
+from gearpair.teeth.spurgear import Material, SpurGear
 from gearpair.teeth.tooth_profile import ToothProfile
 
 STEEL_KG_M3 = 7850.0
+STEEL_GPA = (185.0, 220.0)  # moduli that steels have
 _NODES, _WEIGHTS = leggauss(32)
 
 
@@ -26,8 +27,8 @@ class GearBlank:
         Axial thickness of the web, at most the face width; needed with a rim.
     hub_mm : float
         Radial thickness of the hub, outside the bore.
-    density_kg_m3 : float
-        Steel's unless given.
+    density_kg_m3 : float, optional
+        That of the gear's material unless given.
     added_inertia_kg_m2 : float
         Of what turns rigidly with the gear: shaft, coupling, motor.
 
@@ -36,18 +37,19 @@ class GearBlank:
     >>> from gearpair.teeth.spurpair import SpurPair
     >>> pair = SpurPair()
     >>> solid, webbed = GearBlank(), GearBlank(rim_mm=8.0, web_mm=6.0, hub_mm=5.0)
-    >>> [round(1e3 * blank.inertia_kg_m2(pair.gear, pair.face_width_mm), 3) for blank in (solid, webbed)]
+    >>> [round(1e3 * blank.inertia_kg_m2(pair.gear), 3) for blank in (solid, webbed)]
     [1.647, 1.267]
     """
 
     rim_mm: float | None = None
     web_mm: float | None = None
     hub_mm: float = 0.0
-    density_kg_m3: float = STEEL_KG_M3
+    density_kg_m3: float | None = None
     added_inertia_kg_m2: float = 0.0
 
     def __post_init__(self) -> None:
-        check_number("density_kg_m3", self.density_kg_m3, above=0.0)
+        if self.density_kg_m3 is not None:
+            check_number("density_kg_m3", self.density_kg_m3, above=0.0)
         check_number("hub_mm", self.hub_mm, at_least=0.0)
         check_number("added_inertia_kg_m2", self.added_inertia_kg_m2, at_least=0.0)
         if (self.rim_mm is None) != (self.web_mm is None):
@@ -56,15 +58,22 @@ class GearBlank:
             check_number("rim_mm", self.rim_mm, above=0.0)
             check_number("web_mm", self.web_mm, above=0.0)
 
-    def inertia_kg_m2(self, gear: SpurGear, face_width_mm: float) -> float:
+    def inertia_kg_m2(self, gear: SpurGear, face_width_mm: float | None = None) -> float:
         """The moment of inertia about the gear's axis: body, rim, web, the teeth as they are cut, and what is added.
+
+        Parameters
+        ----------
+        gear : SpurGear
+        face_width_mm : float, optional
+            The gear's own width unless given.
 
         Raises
         ------
         ValueError
-            Where rim and hub leave no room for a web, or the web is wider than the face.
+            Where rim and hub leave no room for a web, the web is wider than the face, or the density is not known.
         """
-        bore, root, width = gear.bore_mm, gear.root_circle_mm, face_width_mm
+        bore, root = gear.bore_mm, gear.root_circle_mm
+        width = gear.face_width_mm if face_width_mm is None else face_width_mm
         moment = width * (0.5 * math.pi * (root**4 - bore**4) + teeth_moment_mm4(gear))
         if self.rim_mm is not None and self.web_mm is not None:
             inner, outer = bore + self.hub_mm, root - self.rim_mm
@@ -75,7 +84,31 @@ class GearBlank:
                 )
             check_number("web_mm", self.web_mm, above=0.0, at_most=width)
             moment -= (width - self.web_mm) * 0.5 * math.pi * (outer**4 - inner**4)
-        return moment * self.density_kg_m3 * 1e-15 + self.added_inertia_kg_m2  # mm^5 kg/m^3
+        density = density_of(gear.material) if self.density_kg_m3 is None else self.density_kg_m3
+        return moment * density * 1e-15 + self.added_inertia_kg_m2  # mm^5 kg/m^3
+
+
+def density_of(material: Material) -> float:
+    """Density in kg/m^3 as given, or steel's of what is as stiff as steel.
+
+    Raises
+    ------
+    ValueError
+        Where it is not given and the material is no steel.
+
+    Examples
+    --------
+    >>> density_of(Material(youngs_modulus_gpa=206.0, poisson_ratio=0.3))
+    7850.0
+    """
+    if material.density_kg_m3 is not None:
+        return material.density_kg_m3
+    if STEEL_GPA[0] <= material.youngs_modulus_gpa <= STEEL_GPA[1]:
+        return STEEL_KG_M3
+    raise ValueError(
+        f"density_kg_m3 must be given where youngs_modulus_gpa is no steel's, {STEEL_GPA[0]:g} to {STEEL_GPA[1]:g}: "
+        f"it is {material.youngs_modulus_gpa:g}"
+    )
 
 
 def teeth_moment_mm4(gear: SpurGear) -> float:

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from gearpair._checks import checked
 from gearpair._equality import equal_by_value
 from gearpair.teeth.compliance import hertz_compliance
-from gearpair.teeth.spurpair import SpurGear, SpurPair
+from gearpair.teeth.spurgear import SpurGear
+from gearpair.teeth.spurpair import SpurPair
 
 Array = NDArray[np.float64]
 MEASURES = ("section", "tip", "centre")

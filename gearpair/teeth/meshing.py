@@ -16,13 +16,20 @@ from numpy.typing import NDArray
 from gearpair._checks import check_choice, check_count, checked
 from gearpair._equality import equal_by_value
 from gearpair.stiffness import Rectangle, StiffnessWave
-from gearpair.teeth.compliance import foundation_compliance, hertz_compliance, in_foundation_range, tooth_compliance
+from gearpair.teeth.compliance import (
+    foundation_compliance,
+    hertz_compliance,
+    in_foundation_range,
+    ring_foundation,
+    root_load,
+    tooth_compliance,
+)
 from gearpair.teeth.gear_body import ring_compliance
 from gearpair.teeth.spurpair import SpurPair
 from gearpair.teeth.tooth_profile import ROOTS, Root, ToothProfile
 
 Array = NDArray[np.float64]
-Coupling = Literal["summed", "ring"]
+Coupling = Literal["summed", "ring", "clamped"]
 COUPLINGS = get_args(Coupling)
 _NODES, _WEIGHTS = leggauss(24)
 
@@ -60,7 +67,7 @@ class MeshStiffness:
     zones : tuple of Legendre
         The mesh curve in N/m between two changes of the number of pairs, as polynomials of the phase.
     outside_fit : tuple of str
-        One sentence for each gear that lies outside the range of the foundation formula.
+        One sentence for each gear of summed pairs that lies outside the range of the foundation formula.
     """
 
     pair: SpurPair
@@ -173,33 +180,50 @@ def mesh_stiffness(
     root : {"trochoid", "straight", "base_circle"}
         Shape of the tooth below its involute, see `ToothProfile`.
     foundation : bool
-        Whether the gear bodies yield (Sainsot, Velex and Duverger 2004) or are rigid.
-    coupling : {"summed", "ring"}
-        ``"summed"``: the pairs in contact are springs side by side, as in most of the literature; each has its
-        own gear body. ``"ring"``: they share their bodies. A load on one tooth also moves its neighbours'
-        feet, by `ring_compliance` (plane elasticity of a ring fixed at its bore); needs `foundation`.
+        Whether the gear bodies yield or are rigid.
+    coupling : {"summed", "ring", "clamped"}
+        ``"summed"``: the pairs in contact are springs side by side, as in most of the literature. Each has its own
+        gear body, held at its bore (Sainsot, Velex and Duverger 2004; the ring's series outside the range of their
+        formula; a solid body without twist). ``"ring"``: they share their bodies. A load on one tooth also moves its
+        neighbours' feet, by `ring_compliance` (plane elasticity of a ring); the twist of the whole body between bore
+        and rim is left out, for it belongs to the shaft. ``"clamped"``: the same with that twist, as finite elements
+        have it that hold the bore. The last two need `foundation`.
     n_phases : int
         Samples over the mesh period, at least 2.
 
     Notes
     -----
-    Teeth without error, in plane stress, all of the width b in contact, contact only between the tip circles.
+    Teeth without error, in plane stress, all of the smaller width b in contact, contact only between the tip circles.
     The pairs in contact share the force so that all approach by the same distance: with the compliance
     matrix C of the pairs, ``k = sum of the elements of inverse(C)``. Diagonal C gives the sum of the pairs'
-    stiffnesses. Components: `tooth_compliance`, `hertz_compliance` (once per pair), `foundation_compliance`.
+    stiffnesses. Components: `tooth_compliance`, `hertz_compliance` (once per pair, with
+    ``2 / E = (1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2`` of unlike materials in the place of ``2 (1 - nu^2) / E``),
+    `foundation_compliance` and `ring_foundation`. The body apart from tooth and contact, and its twist apart from the
+    mesh: Kiekbusch, Sappok, Sauer and Howard (2011).
+
+    With a gear of more and more teeth the teeth grow stiffer and the body, as deep as the gear is large, softer by a
+    logarithm: finite at any number of teeth, without an end.
+
+    Raises
+    ------
+    ValueError
+        A solid body, which has no bore, with ``coupling="clamped"``.
 
     Examples
     --------
     >>> summed = mesh_stiffness(SpurPair())
     >>> ring = mesh_stiffness(SpurPair(), coupling="ring")
     >>> round(summed.mean / 1e6), round(ring.mean / 1e6)
-    (385, 307)
+    (385, 418)
     """
     check_choice("root", root, ROOTS)
     check_choice("coupling", coupling, COUPLINGS)
     n_phases = check_count("n_phases", n_phases, at_least=2)
-    if coupling == "ring" and not foundation:
-        raise ValueError("coupling = 'ring' joins the teeth by their gear bodies: it needs foundation=True")
+    if coupling != "summed" and not foundation:
+        raise ValueError(f"coupling = {coupling!r} joins the teeth by their gear bodies: it needs foundation=True")
+    for who, gear in (("pinion", pair.pinion), ("gear", pair.gear)):
+        if coupling == "clamped" and gear.bore_mm == 0.0:
+            raise ValueError(f"coupling = 'clamped' holds each body at its bore, and the {who} is solid: take 'ring'")
     model = _Model(pair, root, foundation, coupling)
     ratio = pair.contact_ratio
     whole = math.floor(ratio + 1e-12)
@@ -226,24 +250,25 @@ def mesh_stiffness(
         foundation=foundation,
         coupling=coupling,
         phase=phase,
-        stiffness_n_per_m=stiffness * model.unit,
+        stiffness_n_per_m=stiffness,
         pairs_in_contact=pairs,
         load_share=forces / stiffness,
         path=path,
-        pair_stiffness_n_per_m=np.asarray(model.unit / sum(parts.values())),
-        compliance_m_per_n={name: values / model.unit for name, values in parts.items()},
-        zones=tuple(zone * model.unit for zone in zones),
-        outside_fit=model.outside_fit() if foundation else (),
+        pair_stiffness_n_per_m=np.asarray(1.0 / sum(parts.values())),
+        compliance_m_per_n=parts,
+        zones=tuple(zones),
+        outside_fit=model.outside_fit() if foundation and coupling == "summed" else (),
     )
 
 
 class _Model:
-    """The compliances of a pair as functions of its position, times E b."""
+    """The compliances of a pair as functions of its position, in m/N."""
 
     def __init__(self, pair: SpurPair, root: Root, foundation: bool, coupling: Coupling) -> None:
         self.pair, self.foundation, self.coupling = pair, foundation, coupling
-        self.unit = pair.youngs_modulus_gpa * 1e9 * pair.face_width_mm * 1e-3
         self.teeth = {"pinion": ToothProfile(pair.pinion, root), "gear": ToothProfile(pair.gear, root)}
+        width = pair.contact_width_mm * 1e-3
+        self.units = {who: tooth.gear.material.youngs_modulus_gpa * 1e9 * width for who, tooth in self.teeth.items()}
 
     def rolls(self, who: str, position: Array) -> Array:
         """Roll angle of the contact on one gear, for positions in mesh periods since entry."""
@@ -254,14 +279,24 @@ class _Model:
 
     def components(self, position: Array) -> dict[str, Array]:
         parts: dict[str, Array] = {}
+        contact = 0.0
         for who, tooth in self.teeth.items():
-            roll = self.rolls(who, position)
-            bending, shear, axial = tooth_compliance(tooth, roll, self.pair.poisson_ratio)
-            parts |= {f"{who}_bending": bending, f"{who}_shear": shear, f"{who}_axial": axial}
-            body = foundation_compliance(tooth, roll) if self.foundation else np.zeros_like(roll)
-            parts[f"{who}_foundation"] = body
-        parts["hertz"] = np.full_like(position, hertz_compliance(self.pair.poisson_ratio))
+            roll, unit, nu = self.rolls(who, position), self.units[who], tooth.gear.material.poisson_ratio
+            bending, shear, axial = tooth_compliance(tooth, roll, nu)
+            parts |= {f"{who}_bending": bending / unit, f"{who}_shear": shear / unit, f"{who}_axial": axial / unit}
+            parts[f"{who}_foundation"] = self.body(who, roll) / unit
+            contact += hertz_compliance(nu) / unit / 2
+        parts["hertz"] = np.full_like(position, contact)
         return parts
+
+    def body(self, who: str, roll: Array) -> Array:
+        """Compliance of one gear's body below its loaded tooth, times E b."""
+        tooth = self.teeth[who]
+        if not self.foundation:
+            return np.zeros_like(roll)
+        if self.coupling == "summed" and in_foundation_range(tooth):
+            return foundation_compliance(tooth, roll)
+        return ring_foundation(tooth, roll, self.bodies[who][0])
 
     def shared(self, phase: Array, count: int) -> Array:
         """Force on each of `count` pairs for unit approach, shape (count, n)."""
@@ -284,34 +319,33 @@ class _Model:
                 tooth.radius_ratio,
                 tooth.clamp_half_angle,
                 2 * math.pi / tooth.gear.teeth * np.arange(reach),
-                self.pair.poisson_ratio,
+                tooth.gear.material.poisson_ratio,
+                twist=self.coupling != "ring",
             )
             for who, tooth in self.teeth.items()
         }
 
     def neighbours(self, who: str, rolls: Array) -> Array:
-        """Compliance between the loaded teeth of one gear: shape (n, count, count), zero diagonal.
+        """Compliance in m/N between the loaded teeth of one gear: shape (n, count, count), zero diagonal.
 
         All contacts lie on one line, so the angle between two teeth is the difference of their roll angles:
         on the pinion the pair that entered earlier is further towards the flank's side, on the gear the later.
         """
         tooth, count = self.teeth[who], len(rolls)
-        slope = rolls - tooth.gear.base_half_angle
-        middle = math.sin(tooth.clamp_half_angle) / tooth.clamp_half_angle
-        arm = tooth.base_radius / tooth.clamp_radius / np.cos(slope) - middle
-        load = np.stack([-np.cos(slope), -np.sin(slope), np.cos(slope) * arm], axis=-1)  # x, y, moment
+        load = root_load(tooth, rolls)
         joined = np.zeros((rolls.shape[1], count, count))
         for i in range(count):
             for j in range(i):
                 early, late = (i, j) if who == "pinion" else (j, i)
                 push = np.sum((load[early] @ self.bodies[who][i - j]) * load[late], axis=-1)
-                joined[:, i, j] = joined[:, j, i] = push
+                joined[:, i, j] = joined[:, j, i] = push / self.units[who]
         return joined
 
     def outside_fit(self) -> tuple[str, ...]:
         return tuple(
             f"the {who}'s theta_f = {tooth.clamp_half_angle:.3f} and h = {tooth.radius_ratio:.2f} are outside the "
-            "range that the foundation formula was fitted for: theta_f from 0.01 to 0.12, h from 1.4 to 7"
+            "range that the foundation formula was fitted for, theta_f from 0.01 to 0.12 and h from 1.4 to 7: its body "
+            "is an elastic ring instead"
             for who, tooth in self.teeth.items()
             if not in_foundation_range(tooth)
         )

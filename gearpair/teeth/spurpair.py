@@ -6,14 +6,18 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal, Self, get_args
 
-from gearpair._checks import check_choice, check_count, check_fields, check_number
+from gearpair._checks import check_choice, check_class, check_count, check_fields, check_number
+from gearpair.teeth.spurgear import Material, SpurGear, inv, undercut_end
+from gearpair.teeth.tooth_profile import ToothProfile, tip_clears
 
 Backlash = Literal["normal", "circumferential", "thickness"]
 BACKLASHES = get_args(Backlash)
 _ROUNDING = 1e-12
 LIMITS: dict[str, dict[str, float]] = {
-    **dict.fromkeys(("module_mm", "face_width_mm", "addendum", "clearance", "bore_ratio"), {"above": 0.0}),
-    "youngs_modulus_gpa": {"above": 0.0},
+    **dict.fromkeys(("module_mm", "face_width_mm", "addendum", "clearance"), {"above": 0.0}),
+    **dict.fromkeys(("pinion_face_width_mm", "gear_face_width_mm"), {"above": 0.0}),
+    **dict.fromkeys(("bore_ratio", "pinion_bore_ratio", "gear_bore_ratio"), {"at_least": 0.0}),
+    **dict.fromkeys(("youngs_modulus_gpa", "density_kg_m3"), {"above": 0.0}),
     "pressure_angle_deg": {"above": 0.0, "below": 90.0},
     "poisson_ratio": {"above": 0.0, "below": 0.5},
     **dict.fromkeys(("tip_shortening", "tip_radius"), {"at_least": 0.0}),
@@ -21,77 +25,15 @@ LIMITS: dict[str, dict[str, float]] = {
 }
 
 
-def _involute(angle: float) -> float:
-    return math.tan(angle) - angle
-
-
 def _inverse_involute(value: float) -> float:
     """Angle whose involute is `value` > 0: Newton on a convex function, from above."""
     angle = min((3.0 * value) ** (1.0 / 3.0), math.pi / 2 - 1e-3) if value < 1.0 else math.atan(value + math.pi / 2)
     for _ in range(60):
-        step = (_involute(angle) - value) / math.tan(angle) ** 2
+        step = (inv(angle) - value) / math.tan(angle) ** 2
         angle -= step
         if abs(step) < 1e-16:
             break
     return angle
-
-
-@dataclass(frozen=True)
-class SpurGear:
-    """One gear of a `SpurPair`; every length in millimetres, every angle in radians.
-
-    Parameters
-    ----------
-    teeth : int
-        Number of teeth z.
-    module_mm, pressure_angle, shift : float
-        Module m, the rack's pressure angle alpha and the profile shift x (in modules).
-    pitch_radius_mm, base_radius_mm : float
-        ``r = m z / 2`` and ``r_b = r cos(alpha)``.
-    tip_circle_mm, root_circle_mm, bore_mm : float
-        *Radii* of the tip circle, of the root circle and of the bore.
-    form_circle_mm : float
-        Radius at which the involute begins: where the rack's straight flank ends.
-    rack_tip_radius_mm, rack_tip_depth_mm, rack_tip_offset_mm : float
-        The rack's tip arc: its radius, the distance of its centre below the pitch line of
-        generation and its distance from the centre line of the rack's tooth.
-
-    Notes
-    -----
-    Made by `SpurPair`, which checks it. The rack that cuts the gear is the basic rack of ISO 53:
-    straight flanks down to the tip arc, flat at the tip.
-    """
-
-    teeth: int
-    module_mm: float
-    pressure_angle: float
-    shift: float
-    pitch_radius_mm: float
-    base_radius_mm: float
-    tip_circle_mm: float
-    root_circle_mm: float
-    bore_mm: float
-    form_circle_mm: float
-    rack_tip_radius_mm: float
-    rack_tip_depth_mm: float
-    rack_tip_offset_mm: float
-
-    @property
-    def base_half_angle(self) -> float:
-        """Half the tooth's angle on the base circle: ``pi / 2z + 2 x tan(alpha) / z + inv(alpha)``."""
-        alpha = self.pressure_angle
-        return math.pi / (2 * self.teeth) + 2 * self.shift * math.tan(alpha) / self.teeth + _involute(alpha)
-
-    @property
-    def root_half_angle(self) -> float:
-        """Half the angle between the two points where the rack-cut fillets reach the root circle (theta_f)."""
-        return math.pi / self.teeth - self.rack_tip_offset_mm / self.pitch_radius_mm
-
-    @property
-    def tip_thickness_mm(self) -> float:
-        """Thickness of the tooth along the tip circle."""
-        tip_angle = math.acos(self.base_radius_mm / self.tip_circle_mm)
-        return 2 * self.tip_circle_mm * (self.base_half_angle - _involute(tip_angle))
 
 
 @dataclass(frozen=True)
@@ -103,7 +45,7 @@ class SpurPair:
     pinion_teeth, gear_teeth : int
         Numbers of teeth z1 (driving) and z2 (driven).
     module_mm, face_width_mm : float
-        Module m and common face width b, in millimetres.
+        Module m and face width b, in millimetres.
     pressure_angle_deg : float
         Pressure angle alpha of the rack, in degrees.
     addendum, clearance : float
@@ -115,24 +57,32 @@ class SpurPair:
         ``c / (1 - sin(alpha))``, the arc that ends the straight flank at depth h_a, or a fully round
         tip where that arc is too wide for the rack (25 degrees and c = 0.25, say).
     bore_ratio : float
-        Radius of the bore over the pitch radius, the same on both gears.
+        Radius of the bore over the pitch radius; 0 for a solid gear, one with its shaft.
     youngs_modulus_gpa, poisson_ratio : float
-        E in GPa and nu, the same on both gears.
+        E in GPa and nu.
     tip_shortening : float
         Taken off both tips, in modules; 0 unless asked for. `full_clearance_shortening` is the
         value that gives a shifted pair its clearance c again.
+    density_kg_m3 : float, optional
+        Needed where the gears are weighed, unless E is that of a steel.
+    pinion_bore_ratio, gear_bore_ratio, pinion_face_width_mm, gear_face_width_mm : float, optional
+        Each gear's own, where it is not that of both above.
+    pinion_material, gear_material : Material, optional
+        Each gear's own, where it is not made of what is said of both above.
 
     Raises
     ------
     ValueError
-        Sizes out of range; an undercut or pointed tooth; a bore at or beyond a root circle; a rack
-        without room for its tip arc; tips that reach the mating root circle or touch below the mating
-        involute; a contact ratio below 1. The sentence has the number found and the limit.
+        Sizes out of range; a pointed tooth, or one that is cut off at its root; a bore at or beyond a root
+        circle; a rack without room for its tip arc; tips that reach the mating root circle or run into the mating
+        fillet; a contact ratio below 1. The sentence has the number found and the limit.
 
     Notes
     -----
     Working pressure angle ``inv(alpha_w) = inv(alpha) + 2 (x1 + x2) tan(alpha) / (z1 + z2)``, contact
-    between the two tip circles on the line of action: ISO 21771:2007. The article gives neither module
+    between the two tip circles on the line of action: ISO 21771:2007. A gear of few teeth is undercut: the rack's tip
+    takes away a part of the involute, and contact begins, or ends, where the involute and the trochoid meet, at
+    `SpurGear.form_circle_mm`. The article gives neither module
     nor width nor bore: those defaults are choices of this library, and stiffness per width does not
     depend on the module.
 
@@ -141,10 +91,13 @@ class SpurPair:
     >>> pair = SpurPair(pinion_teeth=34, gear_teeth=44)
     >>> round(pair.contact_ratio, 4)
     1.7061
-    >>> SpurPair(pinion_teeth=12)  # doctest: +ELLIPSIS
+    >>> undercut = SpurPair(pinion_teeth=12, gear_teeth=44)
+    >>> undercut.pinion.undercut, round(undercut.contact_ratio, 4)
+    (True, 1.2745)
+    >>> SpurPair(pinion_teeth=12, pinion_shift=1.2)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
         ...
-    ValueError: pinion_teeth = 12 is undercut: pinion_shift is 0 and must be at least 0.298133, or pinion_teeth ... 18
+    ValueError: the pinion's teeth are pointed: thickness at the tip is -1.21975 mm and must be above 0...
     """
 
     pinion_teeth: int = 34
@@ -161,11 +114,21 @@ class SpurPair:
     youngs_modulus_gpa: float = 206.8
     poisson_ratio: float = 0.3
     tip_shortening: float = 0.0
+    density_kg_m3: float | None = None
+    pinion_bore_ratio: float | None = None
+    gear_bore_ratio: float | None = None
+    pinion_face_width_mm: float | None = None
+    gear_face_width_mm: float | None = None
+    pinion_material: Material | None = None
+    gear_material: Material | None = None
 
     def __post_init__(self) -> None:
         for name in ("pinion_teeth", "gear_teeth"):
             object.__setattr__(self, name, check_count(name, getattr(self, name), at_least=3))
         check_fields(self, **LIMITS)
+        for name in ("pinion_material", "gear_material"):
+            if getattr(self, name) is not None:
+                check_class(name, getattr(self, name), Material)
         self._check_rack()
         for who, gear in (("pinion", self.pinion), ("gear", self.gear)):
             self._check_gear(who, gear)
@@ -205,9 +168,9 @@ class SpurPair:
         if shifts == 0.0:
             return self.pressure_angle
         alpha = self.pressure_angle
-        involute = _involute(alpha) + 2 * shifts * math.tan(alpha) / (self.pinion_teeth + self.gear_teeth)
+        involute = inv(alpha) + 2 * shifts * math.tan(alpha) / (self.pinion_teeth + self.gear_teeth)
         if involute <= 0.0:
-            least = -_involute(alpha) * (self.pinion_teeth + self.gear_teeth) / (2 * math.tan(alpha))
+            least = -inv(alpha) * (self.pinion_teeth + self.gear_teeth) / (2 * math.tan(alpha))
             raise ValueError(
                 f"pinion_shift + gear_shift must be above {least:g} for the pair to mesh at all, got {shifts:g}"
             )
@@ -259,12 +222,17 @@ class SpurPair:
     @cached_property
     def pinion(self) -> SpurGear:
         """The driving gear."""
-        return self._gear(self.pinion_teeth, self.pinion_shift)
+        return self._gear("pinion")
 
     @cached_property
     def gear(self) -> SpurGear:
         """The driven gear."""
-        return self._gear(self.gear_teeth, self.gear_shift)
+        return self._gear("gear")
+
+    @property
+    def contact_width_mm(self) -> float:
+        """Face width over which the teeth touch: the smaller of the two gears'."""
+        return min(self.pinion.face_width_mm, self.gear.face_width_mm)
 
     @property
     def line_of_action_mm(self) -> float:
@@ -273,25 +241,41 @@ class SpurPair:
 
     @property
     def contact_start_mm(self) -> float:
-        """Start of contact (the gear's tip), along the line of action from the pinion's tangent point."""
-        return self.line_of_action_mm - math.sqrt(self.gear.tip_circle_mm**2 - self.gear.base_radius_mm**2)
+        """Start of contact, along the line of action from the pinion's tangent point.
+
+        Where the gear's tip meets the line of action, or where the involute of an undercut pinion begins.
+        """
+        return max(self.line_of_action_mm - _tip_tangent(self.gear), self.pinion.form_tangent_mm)
 
     @property
     def contact_end_mm(self) -> float:
-        """End of contact (the pinion's tip), along the line of action from the pinion's tangent point."""
-        return math.sqrt(self.pinion.tip_circle_mm**2 - self.pinion.base_radius_mm**2)
+        """End of contact, along the line of action from the pinion's tangent point.
+
+        Where the pinion's tip meets the line of action, or where the involute of an undercut gear begins.
+        """
+        return min(_tip_tangent(self.pinion), self.line_of_action_mm - self.gear.form_tangent_mm)
 
     @property
     def contact_ratio(self) -> float:
         """epsilon: length of the path of contact over the base pitch."""
         return (self.contact_end_mm - self.contact_start_mm) / self.base_pitch_mm
 
-    def _gear(self, teeth: int, shift: float) -> SpurGear:
+    def _own(self, who: str, name: str) -> Any:
+        """What one gear has of its own, or what both have."""
+        own = getattr(self, f"{who}_{name}")
+        return getattr(self, name) if own is None else own
+
+    def _gear(self, who: str) -> SpurGear:
+        teeth, shift = getattr(self, f"{who}_teeth"), getattr(self, f"{who}_shift")
         m, alpha, radius = self.module_mm, self.pressure_angle, self.module_mm * teeth / 2
-        straight = self._straight_depth - shift
-        form_tangent = radius * math.sin(alpha) - m * straight / math.sin(alpha)
+        form_tangent = radius * math.sin(alpha) - m * (self._straight_depth - shift) / math.sin(alpha)
         base = radius * math.cos(alpha)
-        return SpurGear(
+        both = Material(
+            youngs_modulus_gpa=self.youngs_modulus_gpa,
+            poisson_ratio=self.poisson_ratio,
+            density_kg_m3=self.density_kg_m3,
+        )
+        gear = SpurGear(
             teeth=teeth,
             module_mm=m,
             pressure_angle=alpha,
@@ -300,12 +284,19 @@ class SpurPair:
             base_radius_mm=base,
             tip_circle_mm=radius + m * (self.addendum + shift - self.tip_shortening),
             root_circle_mm=radius - m * (self.addendum + self.clearance - shift),
-            bore_mm=self.bore_ratio * radius,
+            bore_mm=self._own(who, "bore_ratio") * radius,
             form_circle_mm=math.hypot(base, max(form_tangent, 0.0)),
+            fillet_end=alpha,
             rack_tip_radius_mm=m * self.rack_tip_radius,
             rack_tip_depth_mm=m * (self.addendum + self.clearance - self.rack_tip_radius - shift),
             rack_tip_offset_mm=m * self._rack_tip_offset,
+            face_width_mm=self._own(who, "face_width_mm"),
+            material=getattr(self, f"{who}_material") or both,
         )
+        if form_tangent >= -_ROUNDING * radius:
+            return gear
+        end, form = undercut_end(gear)
+        return dataclasses.replace(gear, fillet_end=end, form_circle_mm=form)
 
     @property
     def _straight_depth(self) -> float:
@@ -338,19 +329,17 @@ class SpurPair:
             )
 
     def _check_gear(self, who: str, gear: SpurGear) -> None:
-        sine2 = math.sin(gear.pressure_angle) ** 2
-        least_shift = self._straight_depth - gear.teeth * sine2 / 2
-        if gear.shift < least_shift - _ROUNDING:
-            least_teeth = math.ceil(2 * (self._straight_depth - gear.shift) / sine2)
+        if gear.root_circle_mm <= 0.0 or (gear.undercut and ToothProfile(gear).least_half_thickness <= 0.0):
             raise ValueError(
-                f"{who}_teeth = {gear.teeth} is undercut: {who}_shift is {gear.shift:g} and must be at least "
-                f"{least_shift:g}, or {who}_teeth at least {least_teeth}"
+                f"{who}_teeth = {gear.teeth} with {who}_shift = {gear.shift:g} is undercut so far that the teeth are "
+                "cut off at their roots: take more teeth or more shift"
             )
         if gear.bore_mm >= gear.root_circle_mm:
             limit = gear.root_circle_mm / gear.pitch_radius_mm
+            own = "" if getattr(self, f"{who}_bore_ratio") is None else f"{who}_"
             raise ValueError(
-                f"bore_ratio = {self.bore_ratio:g} puts the {who}'s bore at or beyond its root circle: "
-                f"it must be below {limit:g}"
+                f"{own}bore_ratio = {gear.bore_mm / gear.pitch_radius_mm:g} puts the {who}'s bore at or beyond its "
+                f"root circle: it must be below {limit:g}"
             )
         if gear.tip_circle_mm <= gear.form_circle_mm:
             raise ValueError(
@@ -365,10 +354,7 @@ class SpurPair:
 
     def _check_mesh(self) -> None:
         length = self.line_of_action_mm
-        for who, gear, mate, tip_tangent in (
-            ("pinion", self.pinion, self.gear, self.contact_end_mm),
-            ("gear", self.gear, self.pinion, length - self.contact_start_mm),
-        ):
+        for who, gear, mate in (("pinion", self.pinion, self.gear), ("gear", self.gear, self.pinion)):
             other = "gear" if who == "pinion" else "pinion"
             most = self.centre_distance_mm - mate.root_circle_mm
             if gear.tip_circle_mm > most * (1 + _ROUNDING):
@@ -376,11 +362,21 @@ class SpurPair:
                     f"the {who}'s tip circle reaches the {other}'s root circle: its radius is "
                     f"{gear.tip_circle_mm:g} mm and must be at most {most:g} mm"
                 )
-            lowest, form = length - tip_tangent, math.sqrt(mate.form_circle_mm**2 - mate.base_radius_mm**2)
-            if lowest < form - _ROUNDING * length:
+            lowest, form = length - _tip_tangent(gear), mate.form_tangent_mm
+            if mate.undercut and lowest < form and not tip_clears(mate, gear, self.centre_distance_mm):
+                raise ValueError(
+                    f"interference: the {who}'s tip runs into the undercut root of the {other}; "
+                    f"take less addendum or a smaller {who}"
+                )
+            if not mate.undercut and lowest < form - _ROUNDING * length:
                 raise ValueError(
                     f"interference: the {who}'s tip meets the {other} {lowest:g} mm along the line of action from "
                     f"the {other}'s base circle, and the {other}'s involute begins at {form:g} mm"
                 )
         if self.contact_ratio < 1.0:
             raise ValueError(f"contact ratio is {self.contact_ratio:g} and must be at least 1: contact would be lost")
+
+
+def _tip_tangent(gear: SpurGear) -> float:
+    """Where the tip circle meets the line of action, from the gear's own base circle, in mm."""
+    return math.sqrt(gear.tip_circle_mm**2 - gear.base_radius_mm**2)

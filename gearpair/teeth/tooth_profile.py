@@ -15,11 +15,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_choice, check_class
-from gearpair.teeth.spurpair import SpurGear
+from gearpair.teeth.spurgear import SpurGear
 
 Array = NDArray[np.float64]
 Root = Literal["trochoid", "straight", "base_circle"]
 ROOTS = get_args(Root)
+_FRACTIONS = np.linspace(0.0, 1.0, 401)  # along a fillet
+_TOUCH = 1e-4  # modules by which a tip may seem to run into a fillet, which is given by points
 
 
 @dataclass(frozen=True)
@@ -75,8 +77,8 @@ class ToothProfile:
 
     @property
     def radius_ratio(self) -> float:
-        """h: that circle over the bore."""
-        return self.clamp_radius * self.gear.module_mm / self.gear.bore_mm
+        """h: that circle over the bore; infinite for a solid gear."""
+        return self.clamp_radius * self.gear.module_mm / self.gear.bore_mm if self.gear.bore_mm else math.inf
 
     @property
     def clamp_half_angle(self) -> float:
@@ -96,6 +98,11 @@ class ToothProfile:
         else:
             radius = max(self.base_radius, self.root_radius)
         return math.sqrt(max((radius / self.base_radius) ** 2 - 1.0, 0.0))
+
+    @property
+    def least_half_thickness(self) -> float:
+        """Half the thickness of the root at its waist, in modules; below 0 where both fillets cut the tooth off."""
+        return float(np.min(self.fillet(_FRACTIONS)[1]))
 
     def involute(self, roll: ArrayLike) -> tuple[Array, Array, Array, Array]:
         """The involute at roll angles t.
@@ -132,7 +139,7 @@ class ToothProfile:
         -----
         Trochoid: the common normal of the rack's tip arc and the gear passes through the pitch point
         (law of gearing) at an angle gamma to the pitch line, which runs from pi/2 on the root circle
-        to alpha at the involute.
+        to alpha at the involute, or ends before where that has been cut away.
 
         Examples
         --------
@@ -148,7 +155,7 @@ class ToothProfile:
         gear, m = self.gear, self.gear.module_mm
         pitch, rho = gear.pitch_radius_mm / m, gear.rack_tip_radius_mm / m
         depth, offset = gear.rack_tip_depth_mm / m, gear.rack_tip_offset_mm / m
-        rate = gear.pressure_angle - math.pi / 2
+        rate = gear.fillet_end - math.pi / 2
         gamma = math.pi / 2 + rate * s
         sine, cosine = np.sin(gamma), np.cos(gamma)
         along, below = depth * cosine / sine + rho * cosine, pitch - depth - rho * sine
@@ -169,3 +176,38 @@ class ToothProfile:
         length = float(top) - bottom if self.clamp_radius < self.base_radius else 0.0
         zero = np.zeros_like(s)
         return bottom + length * s, float(half) + zero, length + zero, zero
+
+
+def tip_clears(gear: SpurGear, mate: SpurGear, centre_distance_mm: float) -> bool:
+    """Whether the corner at the mate's tip stays outside the gear's fillet on its whole way through the space.
+
+    Parameters
+    ----------
+    gear, mate : SpurGear
+    centre_distance_mm : float
+
+    Notes
+    -----
+    In the gear's frame the mate rolls round it, and its corner, which lies on the gear's involute prolonged when it
+    crosses the line of action, describes a trochoid.
+
+    Examples
+    --------
+    >>> from gearpair.teeth.spurpair import SpurPair
+    >>> pair = SpurPair(pinion_teeth=12, gear_teeth=44)
+    >>> tip_clears(pair.pinion, pair.gear, pair.centre_distance_mm)
+    True
+    """
+    tooth, m = ToothProfile(gear), gear.module_mm
+    working = math.acos((gear.base_radius_mm + mate.base_radius_mm) / centre_distance_mm)
+    lowest = centre_distance_mm * math.sin(working) - math.sqrt(mate.tip_circle_mm**2 - mate.base_radius_mm**2)
+    roll = lowest / gear.base_radius_mm
+    centre = centre_distance_mm / m * np.exp(1j * (gear.base_half_angle - roll + working))
+    y, h, _, _ = tooth.involute(roll)
+    turn = np.linspace(-1.0, 1.0, 4001) * math.pi / gear.teeth
+    path = np.exp(1j * turn) * centre + np.exp(1j * turn * (1 + gear.teeth / mate.teeth)) * (y + 1j * h - centre)
+    y, h, _, _ = tooth.fillet(_FRACTIONS)
+    radius, reached = np.hypot(y, h), np.abs(path)
+    near = (radius[0] < reached) & (reached < radius[-1])
+    gap = np.angle(path[near]) - np.interp(reached[near], radius, np.arctan2(h, y))
+    return bool(np.all(reached[near] * gap > -_TOUCH))

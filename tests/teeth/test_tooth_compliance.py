@@ -7,9 +7,12 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from gearpair.teeth import gear_body
 from gearpair.teeth.compliance import (
     foundation_coefficients,
     foundation_compliance,
+    ring_foundation,
+    root_load,
     tooth_compliance,
 )
 from gearpair.teeth.gear_body import ring_compliance
@@ -126,7 +129,7 @@ def test_foundation_against_the_formula_written_out() -> None:
 def test_ring_twists_and_shrinks_as_a_whole_ring() -> None:
     # loads on very narrow arcs all round the rim: only the closed forms for n = 0 are left of the mean
     h, n = 2.5, 1024
-    mean = ring_compliance(h, 1e-4, 2 * math.pi / n * np.arange(n), NU).mean(axis=0)
+    mean = ring_compliance(h, 1e-4, 2 * math.pi / n * np.arange(n), NU, n_harmonics=400).mean(axis=0)
     twist = (1 + NU) / (2 * math.pi) * (h**2 - 1)
     inner = 1 / h**2
     shrink = (1 - inner) * (1 - NU**2) / (2 * math.pi * ((1 + inner) + NU * (1 - inner)))
@@ -134,13 +137,72 @@ def test_ring_twists_and_shrinks_as_a_whole_ring() -> None:
     assert mean[1, 1] == pytest.approx(shrink, rel=1e-6)
 
 
-def test_ring_is_reciprocal_and_passive() -> None:
+@pytest.mark.parametrize(("h", "twist"), [(3.0, True), (3.0, False), (math.inf, False)])
+def test_ring_is_reciprocal_and_passive(h: float, twist: bool) -> None:
     angles = 2 * math.pi / 34 * np.arange(34)
-    blocks = ring_compliance(3.0, 0.0886, angles, NU)
-    back = ring_compliance(3.0, 0.0886, -angles, NU)
+    blocks = ring_compliance(h, 0.0886, angles, NU, twist=twist)
+    back = ring_compliance(h, 0.0886, -angles, NU, twist=twist)
     assert back == pytest.approx(np.swapaxes(blocks, 1, 2), rel=1e-9, abs=1e-12)
     whole = np.block([[blocks[(i - j) % 34] for j in range(34)] for i in range(34)])
-    assert np.linalg.eigvalsh(whole).min() > 0
+    assert np.linalg.eigvalsh(whole).min() > -1e-9
+
+
+def test_twist_is_that_of_a_ring_between_bore_and_rim() -> None:
+    """Of a force along the line of action: r_b^2 / (4 pi G b) (1 / r_i^2 - 1 / r_f^2), for every tooth alike."""
+    tooth = ToothProfile(SpurPair().pinion)
+    load = root_load(tooth, np.array([0.25, 0.4]))
+    angles = 2 * math.pi / 34 * np.arange(3)
+    free, held = (
+        ring_compliance(tooth.radius_ratio, tooth.clamp_half_angle, angles, NU, twist=each) for each in (False, True)
+    )
+    bore = 0.3 * 17
+    turn = tooth.base_radius**2 * 2 * (1 + NU) / (4 * math.pi) * (1 / bore**2 - 1 / tooth.clamp_radius**2)
+    assert load @ (held - free) @ load.T == pytest.approx(np.full((3, 2, 2), turn), rel=1e-12)
+
+
+def test_body_of_a_large_gear_yields_with_the_logarithm_of_its_teeth() -> None:
+    """Each factor e in the number of teeth adds 2 / pi, as a half-plane's displacement grows with the depth it is held at."""
+    rolls, yielding = 0.364, []
+    for teeth in (1500, 3000, 10**6):
+        tooth = ToothProfile(SpurPair(28, teeth).gear)
+        ring = ring_compliance(tooth.radius_ratio, tooth.clamp_half_angle, 0.0, NU, twist=False)
+        yielding.append(float(ring_foundation(tooth, rolls, ring)))
+    assert yielding[1] - yielding[0] == pytest.approx(2 / math.pi * math.log(2), rel=2e-3)
+    assert yielding[2] - yielding[1] == pytest.approx(2 / math.pi * math.log(1e6 / 3000), rel=2e-3)
+
+
+def test_groups_of_orders_stand_for_their_terms(monkeypatch: pytest.MonkeyPatch) -> None:
+    angles = np.array([0.0, 0.0044])
+    grouped = ring_compliance(3.0, 0.002, angles, NU)
+    monkeypatch.setattr(gear_body, "_orders", lambda *_: (np.arange(18_001.0), np.ones(18_001)))
+    each = ring_compliance(3.0, 0.002, angles, NU)
+    assert grouped[..., :2, :2] == pytest.approx(each[..., :2, :2], rel=1e-4, abs=1e-5)
+    assert grouped == pytest.approx(each, rel=1e-4, abs=1e-3)
+
+
+def test_solid_disc_by_its_energy() -> None:
+    """The order 1 of a disc that uniform forces balance: quadratic displacements, by Ritz's method in x and y.
+
+    u_x = a x^2 + b y^2 - (a + b) / 4, u_y = c x y; integrals of x^2 and y^2 over the unit disc are pi / 4.
+    """
+    plane, shear = 1 / (1 - NU**2), 1 / (2 * (1 + NU))
+    stiff = np.array(
+        [[4 * plane, 0, 2 * NU * plane], [0, 4 * shear, 2 * shear], [2 * NU * plane, 2 * shear, plane + shear]]
+    )
+    theta = 2 * math.pi / 64 * np.arange(64)
+    cos, sin = np.cos(theta), np.sin(theta)
+    moves = np.array([[cos**2 - 0.25, 0 * cos], [sin**2 - 0.25, 0 * cos], [0 * cos, cos * sin]])
+    radial, along = moves[:, 0] * cos + moves[:, 1] * sin, moves[:, 1] * cos - moves[:, 0] * sin
+    parts = np.stack([radial @ cos, along @ sin], axis=1) / 32  # (u_r, u_theta) of each displacement at order 1
+    expected = math.pi * parts.T @ np.linalg.solve(math.pi / 4 * stiff, parts)
+    found = gear_body._ring_harmonics(math.inf, NU, np.arange(4.0), twist=False)[1]
+    assert found == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("order", [0, 2, 3, 9])
+def test_small_bore_is_the_solid_disc_at_the_other_orders(order: int) -> None:
+    small, solid = (gear_body._ring_harmonics(h, NU, np.arange(12.0), twist=False)[order] for h in (1e4, math.inf))
+    assert small == pytest.approx(solid, rel=1e-6)
 
 
 def test_ring_series_has_converged() -> None:
