@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import cmath
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
@@ -295,6 +296,14 @@ def check_harmonics(name: str, harmonics: Any, lowest: int = 2) -> tuple[Harmoni
         amplitude = check_number(f"{name}[{i}] amplitude", given.amplitude, at_least=0.0)
         checked.append(Harmonic(order, amplitude, check_number(f"{name}[{i}] phase", given.phase)))
     return tuple(checked)
+
+
+def summed_harmonics(*harmonics: Harmonic) -> tuple[Harmonic, ...]:
+    """One harmonic for each order: those of one order added as phasors."""
+    sums: dict[int, complex] = {}
+    for order, amplitude, phase in harmonics:
+        sums[order] = sums.get(order, 0.0) + cmath.rect(amplitude, phase)
+    return tuple(Harmonic(order, *cmath.polar(each)) for order, each in sorted(sums.items()))
 
 
 PARTS = {"StiffnessWave": StiffnessWave, "Rectangle": Rectangle, "Harmonic": Harmonic}  # of the repr of an oscillator
