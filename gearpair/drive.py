@@ -78,8 +78,7 @@ class GearDrive:
 
     Material that is missing on a tooth lets the drive flank come late and the coast flank early: the part of the error
     in `profile_harmonics` changes its sign with the torque, the rest (pitch, run-out) does not. Its course over the
-    mesh period stays, as it does where the gears are equal. One motion has one error: that of the flank that carries
-    the torque, at zero the drive flank.
+    mesh period stays, as of equal gears. A motion has one error: of the flank that carries, at zero the drive flank.
 
     Examples
     --------
@@ -223,10 +222,12 @@ class GearDrive:
         forgotten = {f"{who}_blank": None for who in ("pinion", "gear") if f"{who}_inertia_kg_m2" in changes}
         if changes.get("stiffness", self.stiffness) != self.stiffness:
             changes.setdefault("mesh", None)
+        relieved = self.relief is not None and "mesh" not in changes
+        if "mesh" in changes:
             forgotten["relief"] = None
-        elif self.relief is not None and "profile_harmonics" in changes:
+        elif relieved and "profile_harmonics" in changes:
             changes.setdefault("relief", None)
-        redrawn = {*DRAWING, *PAIR} | ({"pinion_torque_nm"} if self.relief is not None else set())
+        redrawn = {*DRAWING, *PAIR} | ({"pinion_torque_nm"} if relieved else set())
         if self.mesh is not None and redrawn & changes.keys():
             changes = self._redrawn(changes)
             ratio = self.damping_ratio if ratio is None else ratio
@@ -357,8 +358,7 @@ class GearDrive:
     def with_oscillator(self, osc: Oscillator) -> Self:
         """The drive of the same teeth, inertias, radii, k_m and b_h whose oscillator is `osc`.
 
-        Torque, speed, transmission error, damping, phase and stiffness wave follow from `osc`; none of it is the
-        profile's any more.
+        Torque, speed, transmission error, damping, phase and stiffness follow from `osc`, nothing from a relief.
         """
         unit_um = self.half_backlash_m * 1e6
         return dataclasses.replace(self, relief=None, profile_harmonics=()).replace(
