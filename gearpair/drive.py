@@ -3,15 +3,24 @@
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from numbers import Real
 from typing import Any, Self
 
 import numpy as np
 
-from gearpair._checks import check_count, check_fields, check_number, checked
-from gearpair.oscillator import Harmonic, Oscillator, ShaftOrder, check_harmonics, check_shaft_orders
+from gearpair._checks import check_class, check_count, check_fields, check_number, checked
+from gearpair.oscillator import (
+    Harmonic,
+    Oscillator,
+    ShaftOrder,
+    check_harmonics,
+    check_shaft_orders,
+    summed_harmonics,
+)
 from gearpair.stiffness import StiffnessWave
-from gearpair.teeth import GearBlank, MeshStiffness, SpurPair, mesh_stiffness
+from gearpair.teeth import GearBlank, LoadedMesh, MeshStiffness, SpurPair, TipRelief, loaded_mesh, mesh_stiffness
+from gearpair.teeth import error_harmonics as harmonics_of
 from gearpair.teeth.meshing import Coupling
 
 LIMITS: dict[str, dict[str, float]] = {
@@ -22,6 +31,7 @@ LIMITS: dict[str, dict[str, float]] = {
     **dict.fromkeys(("pinion_torque_nm", "error_phase_rad"), {}),
 }
 SOLID = GearBlank()
+PROFILE_HARMONICS = 12  # that stand for the error of relieved tips
 Error = float | Sequence[Harmonic | tuple[int, float, float]]
 
 
@@ -65,12 +75,20 @@ class GearDrive:
     shaft_orders : sequence of (teeth, amplitude, phase, order)
         Run-out and other errors that repeat with a wheel's revolution: its number of teeth, amplitude in micrometres,
         phase in radians and waves a revolution (one, if left out), as `gearpair.oscillator.ShaftOrder`.
+    profile_harmonics : sequence of (order, amplitude, phase)
+        What the shape of the drive flanks adds to it, orders from 1; set by `from_pair` for a relief.
+    relief : TipRelief, optional
+        What is taken off the tips, of which stiffness and `profile_harmonics` are made; set by `from_pair`.
     mesh, pinion_blank, gear_blank : MeshStiffness, GearBlank and GearBlank, optional
         What stiffness and inertias come from; set by `from_pair`.
 
     Notes
     -----
     The article, items M1 to M5.
+
+    Material that is missing on a tooth lets the drive flank come late and the coast flank early: the part of the error
+    in `profile_harmonics` changes its sign with the torque, the rest (pitch, run-out) does not. Its course over the
+    mesh period stays, as of equal gears. A motion has one error: of the flank that carries, at zero the drive flank.
 
     Examples
     --------
@@ -99,6 +117,8 @@ class GearDrive:
     stiffness: StiffnessWave = field(default_factory=StiffnessWave.rectangular)
     error_harmonics: tuple[Harmonic, ...] = ()
     shaft_orders: tuple[ShaftOrder, ...] = ()
+    profile_harmonics: tuple[Harmonic, ...] = ()
+    relief: TipRelief | None = field(default=None, repr=False, compare=False)
     mesh: MeshStiffness | None = field(default=None, repr=False, compare=False)
     pinion_blank: GearBlank | None = field(default=None, repr=False, compare=False)
     gear_blank: GearBlank | None = field(default=None, repr=False, compare=False)
@@ -108,7 +128,8 @@ class GearDrive:
         check_fields(self, **LIMITS)
         if not isinstance(self.stiffness, StiffnessWave):
             raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
-        object.__setattr__(self, "error_harmonics", check_harmonics("error_harmonics", self.error_harmonics))
+        for name, lowest in (("error_harmonics", 2), ("profile_harmonics", 1)):
+            object.__setattr__(self, name, check_harmonics(name, getattr(self, name), lowest))
         object.__setattr__(self, "shaft_orders", check_shaft_orders("shaft_orders", self.shaft_orders))
 
     @classmethod
@@ -127,6 +148,7 @@ class GearDrive:
         coupling: Coupling = "ring",
         n_levels: int = 16,
         shaft_orders: Sequence[ShaftOrder | tuple[float, ...]] = (),
+        relief: TipRelief | None = None,
     ) -> Self:
         """The drive of a pair that is drawn: inertias, base radii and mesh stiffness follow from its geometry.
 
@@ -148,6 +170,9 @@ class GearDrive:
             Levels of the staircase that stands for the mesh stiffness.
         shaft_orders : sequence of (teeth, amplitude, phase, order)
             As in `GearDrive`.
+        relief : TipRelief, optional
+            What is taken off the tips. Stiffness and `profile_harmonics`, twelve of them, are then those of
+            `gearpair.teeth.loaded_mesh` under the drive's own torque, also after `replace`.
 
         Returns
         -------
@@ -162,8 +187,10 @@ class GearDrive:
         >>> round(osc.damping_ratio, 12), round(osc.error_amplitude, 12), round(osc.stiffness.mean, 12)
         (0.05, 0.125, 1.0)
         """
+        drawn = _drawn(pair, coupling, {"pinion": pinion_blank or SOLID, "gear": gear_blank or SOLID})
         drive = cls(
-            **_drawn(pair, coupling, n_levels, {"pinion": pinion_blank or SOLID, "gear": gear_blank or SOLID}),
+            **drawn,
+            **_under_load(drawn["mesh"], relief, pinion_torque_nm, n_levels),
             pinion_torque_nm=pinion_torque_nm,
             pinion_speed_rpm=pinion_speed_rpm,
             backlash_um=backlash_um,
@@ -181,13 +208,15 @@ class GearDrive:
         **changes
             Any field of the class, and `damping_ratio`. `transmission_error_um` as in `from_pair`: a number takes the
             harmonics with it, a sequence replaces them. Of a drive that comes from `from_pair` also ``pair`` or any
-            field of its `SpurPair`, ``coupling`` and ``n_levels``: with these or a blank, radii, inertias and mesh
-            stiffness are made anew, and the damping ratio stays.
+            field of its `SpurPair`, ``coupling``, ``n_levels`` and ``relief``: with these or a blank, radii, inertias
+            and mesh stiffness are made anew, and the damping ratio stays. So it does where the tips are relieved and
+            the torque changes, for stiffness and error follow it.
 
         Returns
         -------
         GearDrive
-            Without `mesh` where the stiffness is given, without a blank where its inertia is.
+            Without `mesh` where the stiffness is given, without a blank where its inertia is, without `relief` where
+            `profile_harmonics` are.
 
         Examples
         --------
@@ -199,7 +228,7 @@ class GearDrive:
         """
         for name in changes:
             if name not in (*FIELDS, "damping_ratio", *DRAWN):
-                known = ", ".join((*FIELDS, "damping_ratio", *DRAWING[:3]))
+                known = ", ".join((*FIELDS, "damping_ratio", "pair", "coupling", "n_levels"))
                 raise ValueError(f"unknown name {name!r}; what can be changed is {known}, and sizes of the pair")
             if name in DRAWN and self.mesh is None:
                 raise ValueError(f"{name} can be changed only where the drive comes from GearDrive.from_pair")
@@ -209,11 +238,14 @@ class GearDrive:
         forgotten = {f"{who}_blank": None for who in ("pinion", "gear") if f"{who}_inertia_kg_m2" in changes}
         if changes.get("stiffness", self.stiffness) != self.stiffness:
             changes.setdefault("mesh", None)
-        if self.mesh is not None and (drawing := {n: changes.pop(n) for n in (*DRAWING, *PAIR) if n in changes}):
-            pair, coupling = drawing.pop("pair", self.mesh.pair), drawing.pop("coupling", self.mesh.coupling)
-            n_levels = drawing.pop("n_levels", len(self.stiffness.levels))
-            blanks = {who: drawing.pop(f"{who}_blank", getattr(self, f"{who}_blank")) for who in ("pinion", "gear")}
-            changes = _drawn(pair.replace(**drawing), coupling, n_levels, blanks) | changes
+        relieved = self.relief is not None and "mesh" not in changes
+        if "mesh" in changes:
+            forgotten["relief"] = None
+        elif relieved and "profile_harmonics" in changes:
+            changes.setdefault("relief", None)
+        redrawn = {*DRAWING, *PAIR} | ({"pinion_torque_nm"} if relieved else set())
+        if self.mesh is not None and redrawn & changes.keys():
+            changes = self._redrawn(changes)
             ratio = self.damping_ratio if ratio is None else ratio
         if "transmission_error_um" in changes:
             changes = self._error(changes.pop("transmission_error_um")) | changes
@@ -222,6 +254,19 @@ class GearDrive:
             return changed
         damping = check_number("damping_ratio", ratio, at_least=0.0) * changed.critical_damping_n_s_per_m
         return dataclasses.replace(changed, damping_n_s_per_m=damping)
+
+    def _redrawn(self, changes: dict[str, Any]) -> dict[str, Any]:
+        """The changes with what follows from those of the drawing, or of the load on relieved tips, in their place."""
+        assert (mesh := self.mesh) is not None
+        drawn: dict[str, Any] = {} if self.relief is None else {"profile_harmonics": ()}
+        drawing = {name: changes.pop(name) for name in (*DRAWING, *PAIR) if name in changes}
+        n_levels, relief = drawing.pop("n_levels", len(self.stiffness.levels)), drawing.pop("relief", self.relief)
+        if drawing:
+            pair, coupling = drawing.pop("pair", mesh.pair), drawing.pop("coupling", mesh.coupling)
+            blanks = {who: drawing.pop(f"{who}_blank", getattr(self, f"{who}_blank")) for who in ("pinion", "gear")}
+            drawn |= _drawn(pair.replace(**drawing), coupling, blanks)
+        torque = changes.get("pinion_torque_nm", self.pinion_torque_nm)
+        return drawn | _under_load(drawn.get("mesh", mesh), relief, torque, n_levels) | changes
 
     def _error(self, given: Error) -> dict[str, Any]:
         """The fields of a transmission error from its amplitude, or from all its harmonics."""
@@ -296,18 +341,33 @@ class GearDrive:
         """F_m = m_e (r_b1 T1 / I1 + r_b2 T2 / I2), along the line of action; T1 / r_b1 with balanced torques."""
         return self.pinion_torque_nm / (self.pinion_base_radius_mm * 1e-3)
 
+    @property
+    def all_harmonics(self) -> tuple[Harmonic, ...]:
+        """All harmonics of the transmission error of the flank that carries the torque, in micrometres."""
+        alike = (Harmonic(1, self.transmission_error_um, self.error_phase_rad), *self.error_harmonics)
+        turned = np.pi if self.pinion_torque_nm < 0.0 else 0.0
+        profile = [Harmonic(order, size, phase + turned) for order, size, phase in self.profile_harmonics]
+        return summed_harmonics(*alike, *profile) if profile else alike
+
+    @cached_property
+    def loaded_mesh(self) -> LoadedMesh | None:
+        """The static balance of the mesh under the mean force; None where no tips are relieved."""
+        if self.mesh is None or self.relief is None:
+            return None
+        return loaded_mesh(self.mesh, self.relief.deviation_um(self.mesh), abs(self.mean_force_n))
+
     def oscillator(self) -> Oscillator:
         """The dimensionless oscillator of this drive at its speed (the article, item M5)."""
+        first, *others = self.all_harmonics
         return Oscillator(
             mean_force=self.mean_force_n / self.unit_force_n,
-            error_amplitude=self.transmission_error_um * 1e-6 / self.half_backlash_m,
-            error_phase=self.error_phase_rad,
+            error_amplitude=first.amplitude * 1e-6 / self.half_backlash_m,
+            error_phase=first.phase,
             damping_ratio=self.damping_ratio,
             mesh_frequency=self.mesh_frequency_rad_s / self.natural_frequency_rad_s,
             stiffness=self.stiffness,
             harmonics=tuple(
-                Harmonic(order, amplitude * 1e-6 / self.half_backlash_m, phase)
-                for order, amplitude, phase in self.error_harmonics
+                Harmonic(order, amplitude * 1e-6 / self.half_backlash_m, phase) for order, amplitude, phase in others
             ),
             shaft_orders=_scaled(self.shaft_orders, 1e-6 / self.half_backlash_m),
         )
@@ -315,10 +375,11 @@ class GearDrive:
     def with_oscillator(self, osc: Oscillator) -> Self:
         """The drive of the same teeth, inertias, radii, k_m and b_h whose oscillator is `osc`.
 
-        Torque, speed, transmission error, errors of shafts, damping, phase and stiffness wave follow from `osc`.
+        Torque, speed, transmission error, errors of shafts, damping, phase and stiffness follow from `osc`, nothing
+        from a relief.
         """
         unit_um = self.half_backlash_m * 1e6
-        return self.replace(
+        return dataclasses.replace(self, relief=None, profile_harmonics=()).replace(
             pinion_torque_nm=osc.mean_force * self.unit_force_n * self.pinion_base_radius_mm * 1e-3,
             pinion_speed_rpm=osc.mesh_frequency * self.resonance_rpm,
             transmission_error_um=[(order, size * unit_um, phase) for order, size, phase in osc.all_harmonics],
@@ -333,15 +394,9 @@ def _scaled(orders: Sequence[ShaftOrder], unit: float) -> tuple[ShaftOrder, ...]
     return tuple(each._replace(amplitude=each.amplitude * unit) for each in orders)
 
 
-def _drawn(pair: SpurPair, coupling: Coupling, n_levels: int, blanks: dict[str, GearBlank | None]) -> dict[str, Any]:
-    """The fields of a drive that follow from a drawing; an inertia where there is a blank."""
-    mesh = mesh_stiffness(pair, coupling=coupling)
-    drawn = {
-        "pinion_teeth": pair.pinion_teeth,
-        "mean_stiffness_n_per_um": mesh.mean * 1e-6,
-        "stiffness": mesh.wave(n_levels),
-        "mesh": mesh,
-    }
+def _drawn(pair: SpurPair, coupling: Coupling, blanks: dict[str, GearBlank | None]) -> dict[str, Any]:
+    """The fields of a drive that follow from a drawing alone; an inertia where there is a blank."""
+    drawn: dict[str, Any] = {"pinion_teeth": pair.pinion_teeth, "mesh": mesh_stiffness(pair, coupling=coupling)}
     for who, gear in (("pinion", pair.pinion), ("gear", pair.gear)):
         drawn |= {f"{who}_base_radius_mm": gear.base_radius_mm, f"{who}_blank": (blank := blanks[who])}
         if blank is not None:
@@ -349,7 +404,22 @@ def _drawn(pair: SpurPair, coupling: Coupling, n_levels: int, blanks: dict[str, 
     return drawn
 
 
+def _under_load(mesh: MeshStiffness, relief: TipRelief | None, torque_nm: float, n_levels: int) -> dict[str, Any]:
+    """The fields of a drive that follow from a mesh, with relieved tips under a torque."""
+    if relief is None:
+        return {"mean_stiffness_n_per_um": mesh.mean * 1e-6, "stiffness": mesh.wave(n_levels), "relief": None}
+    check_class("relief", relief, TipRelief)
+    force = abs(check_number("pinion_torque_nm", torque_nm)) / (mesh.pair.pinion.base_radius_mm * 1e-3)
+    loaded = loaded_mesh(mesh, relief.deviation_um(mesh), force)
+    return {
+        "mean_stiffness_n_per_um": loaded.mean * 1e-6,
+        "stiffness": loaded.wave(n_levels),
+        "profile_harmonics": harmonics_of(loaded.error_um, PROFILE_HARMONICS),
+        "relief": relief,
+    }
+
+
 FIELDS = tuple(each.name for each in dataclasses.fields(GearDrive))
 PAIR = tuple(each.name for each in dataclasses.fields(SpurPair))
-DRAWING = ("pair", "coupling", "n_levels", "pinion_blank", "gear_blank")
+DRAWING = ("pair", "coupling", "n_levels", "pinion_blank", "gear_blank", "relief")
 DRAWN = {*PAIR} - {*FIELDS} | {*DRAWING}  # only where there is a drawing

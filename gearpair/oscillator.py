@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import cmath
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
@@ -400,6 +401,14 @@ def check_shaft_orders(name: str, given: Any) -> tuple[ShaftOrder, ...]:
         )
         check_number(f"{name}[{i}] order", found[-1].order, at_most=LARGEST_ORDER * found[-1].teeth)
     return tuple(found)
+
+
+def summed_harmonics(*harmonics: Harmonic) -> tuple[Harmonic, ...]:
+    """One harmonic for each order: those of one order added as phasors."""
+    sums: dict[int, complex] = {}
+    for order, amplitude, phase in harmonics:
+        sums[order] = sums.get(order, 0.0) + cmath.rect(amplitude, phase)
+    return tuple(Harmonic(order, *cmath.polar(each)) for order, each in sorted(sums.items()))
 
 
 PARTS = {  # of the repr of an oscillator

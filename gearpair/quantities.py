@@ -155,6 +155,7 @@ ROWS = (
     Quantity("impact_rate", "impacts per second", unit="1/s"),
     Quantity("impact_velocity", "largest approach velocity at an impact", unit="mm/s", axis="largest impact velocity"),
     Quantity("n_motions", "motions found"),
+    Quantity("both_flanks", "one error served both flanks"),
     Quantity("worst_share", "share of the starts that leads to the worst motion"),
     Quantity("linear_factor", "dynamic factor of the linear response"),
     Quantity("linear_rms", "rms of the linear response", unit="um"),

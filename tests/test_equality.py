@@ -82,6 +82,10 @@ LINES = {
     "steady_state": (lambda: gp.steady_state(OSC), "points=<float64 (256, 2) from "),
     "trajectory": (lambda: gp.trajectory(OSC, 1.0, 0.0, 300), "x=<float64 (38401,) from "),
     "mesh_stiffness": (lambda: gp.mesh_stiffness(gp.SpurPair()), "load_share=<float64 (2, 1000) from 0 to 1>"),
+    "loaded mesh": (
+        lambda: gp.teeth.loaded_mesh(mesh := gp.mesh_stiffness(gp.SpurPair()), 0.0 * mesh.path, 100.0),
+        "approach_um=<float64 (1000,) from ",
+    ),
     "finite elements": (lambda: next(iter(gp.teeth.finite_element_bodies().values())), "FiniteElementBody("),
     "spectrum": (lambda: gp.spectrum(gp.trajectory(OSC, 1.0, 0.0, 300)), "frequency=<float64 (19201,) from 0 to 64>"),
     "waves": (lambda: gp.article.sweep_waves(OSC, {"own": OSC.stiffness}, [1.6])["own"], "up=Dataset of status, "),

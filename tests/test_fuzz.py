@@ -152,8 +152,11 @@ CALLS = {
     "teeth": {
         "error_harmonics": lambda: {"error_um": np.sin(np.arange(16.0)), "n": 2},
         "error_orders": lambda: {"error_um": np.sin(np.arange(16.0)), "teeth": 4},
+        "full_contact_force": lambda: {"mesh": made("mesh"), "deviation_um": np.zeros_like(made("mesh").path)},
         "iso_stiffness": lambda: {"pair": gp.SpurPair()},
+        "loaded_mesh": lambda: {"mesh": made("mesh"), "deviation_um": made("mesh").path, "force_n": 100.0},
         "mesh_stiffness": lambda: {"pair": gp.SpurPair(), "n_phases": 10},
+        "pair_deviations": lambda: {"mesh": made("mesh"), "deviation_um": np.zeros_like(made("mesh").path)},
         "profile_error": lambda: {"mesh": made("mesh"), "deviation_um": np.zeros_like(made("mesh").path)},
         "tip_relief": lambda: {"mesh": made("mesh"), "pinion_um": 20.0, "gear_um": 20.0, "length": 0.4},
     },

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair._checks import check_array, check_count, check_number, checked
 from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import linear_response
-from gearpair.design.loads import MEASURES, measure_motion, same_motion
+from gearpair.design.loads import MEASURES, measure_motion, one_error_for_both, same_motion
 from gearpair.drive import GearDrive
 from gearpair.motion.settling import CHART, settle_batch, settle_both_ways
 from gearpair.motion.steady import SteadyState, describe
@@ -59,16 +59,19 @@ def speed_chart(
         Over ``(run, speed)``, the run being ``"up"``, ``"down"`` or ``"worst"`` (the motion with the largest tooth
         force of all that were found at that speed): ``motion``, ``period``, ``impact_state``, ``dte_rms``,
         ``dte_peak_to_peak`` (um), ``mesh_force``, ``tooth_force`` (N), ``dynamic_factor``, ``time_apart``,
-        ``impact_rate`` (1/s) and ``impact_velocity`` (mm/s). Over ``speed``: ``n_motions``, ``worst_share`` of the
-        starts that leads to the worst motion, ``linear_factor`` and ``linear_rms`` (um) of `linear_response`,
-        ``mesh_frequency`` (dimensionless). Over ``jump``: ``jump_speed`` (rpm), ``jump_run``, ``jump_kind``,
-        ``jump_from`` and ``jump_to``, see `find_jumps`.
+        ``impact_rate`` (1/s), ``impact_velocity`` (mm/s) and ``both_flanks``, whether one error served both flanks.
+        Over ``speed``: ``n_motions``, ``worst_share`` of the starts that leads to the worst motion, ``linear_factor``
+        and ``linear_rms`` (um) of `linear_response`, ``mesh_frequency`` (dimensionless). Over ``jump``: ``jump_speed``
+        (rpm), ``jump_run``, ``jump_kind``, ``jump_from`` and ``jump_to``, see `find_jumps`.
 
     Notes
     -----
     The dynamic transmission error is ``r_b1 theta1 - r_b2 theta2 = x + e``. The mesh force is the elastic one,
     ``k_h f(x)``; the tooth force is the share of it that the most loaded pair of teeth carries (nan where the drive
     has no `mesh`). The dynamic factor is the largest mesh force over the mean force.
+
+    An error of the profile (`GearDrive.profile_harmonics`) has its sign on the flank that carries the torque and the
+    other sign on the other flank. A motion that strikes both is computed with the one of the first, and marked.
 
     All chaos of a speed counts as one motion, and is measured over 200 mesh periods. Chaos that ends, but not while it
     is watched, counts as chaos: a drive can be in it for seconds, and bears its loads.
@@ -110,6 +113,7 @@ def speed_chart(
         "period": [[state.period or 0 for state, _ in run] for run in shown],
         "impact_state": [[str(state.impact_state or "") for state, _ in run] for run in shown],
         **{name: [[each[name] for _, each in run] for run in shown] for name in MEASURES},
+        "both_flanks": [[one_error_for_both(drive, state) for state, _ in run] for run in shown],
     }
     jumps = find_jumps(up, down) if locate_jumps else []
     return _dataset(drive, speeds, oscillators, columns, n_motions, worst_share, jumps)

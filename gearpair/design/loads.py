@@ -32,8 +32,8 @@ def measure_motion(drive: GearDrive, state: SteadyState) -> dict[str, float]:
     Notes
     -----
     Forces on the mesh, times apart, impacts and velocities are exact; the dynamic transmission error and the force on
-    one pair of teeth are of 256 samples a mesh period. A motion that is not periodic is measured over 200 mesh periods:
-    a longer time may hold a harder blow.
+    one pair of teeth are of 256 samples a mesh period. Of relieved teeth that is the pair's share at rest, under the
+    mean force. A motion that is not periodic is measured over 200 mesh periods: a longer time may hold a harder blow.
 
     Examples
     --------
@@ -74,10 +74,16 @@ def _largest_tooth_force(drive: GearDrive, state: SteadyState, x: np.ndarray) ->
     if drive.mesh is None:
         return np.nan
     fraction = np.arange(SAMPLES_PER_PERIOD) / SAMPLES_PER_PERIOD
-    share = drive.mesh.load_share.max(axis=0)
+    share = (drive.loaded_mesh or drive.mesh).load_share.max(axis=0)
     most = share[(fraction * len(share)).astype(int)] * state.oscillator.stiffness(fraction)
     pressed = np.clip(np.abs(x) - 1.0, 0.0, None).reshape(-1, SAMPLES_PER_PERIOD)
     return float((pressed * most).max()) * drive.unit_force_n
+
+
+def one_error_for_both(drive: GearDrive, state: SteadyState) -> bool:
+    """Whether a motion with an error of the profile, which has its sign on one flank alone, touches the other one."""
+    other = state.x_min < -1.0 if drive.pinion_torque_nm >= 0.0 else state.x_max > 1.0
+    return bool(drive.profile_harmonics) and bool(other)
 
 
 def same_motion(a: SteadyState, b: SteadyState) -> bool:

@@ -61,6 +61,7 @@ from gearpair.plotting.teeth import (
     pair_stiffness,
     per_width,
     tooth_outlines,
+    under_load,
 )
 from gearpair.plotting.waves import harmonics, stiffness_wave
 
@@ -121,5 +122,6 @@ __all__ = [
     "tooth_loads",
     "tooth_outlines",
     "tornado",
+    "under_load",
     "work_precision",
 ]

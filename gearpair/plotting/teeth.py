@@ -12,6 +12,7 @@ from gearpair._checks import check_count, checked
 from gearpair.plotting.style import BOUNDARY, INK, new_axes, note
 from gearpair.quantities import axis_label
 from gearpair.teeth.finite_elements import MEASURES, FiniteElementBody
+from gearpair.teeth.loading import LoadedMesh
 from gearpair.teeth.meshing import MeshStiffness
 from gearpair.teeth.spurgear import SpurGear
 from gearpair.teeth.tooth_profile import Root, ToothProfile
@@ -238,6 +239,45 @@ def load_shares(
         ax.plot(time[share > 0.0], share[share > 0.0], color=colours[k % len(colours)], label=name)
     ax.set(xlabel=SINCE_ENTRY, ylabel="share of the load", ylim=(0.0, 1.05))
     return ax
+
+
+@checked
+def under_load(
+    meshes: Mapping[str, LoadedMesh], axes: Sequence[Axes], *, colours: Sequence[str] = (INK, "#D55E00", "#009E73")
+) -> list[Axes]:
+    """Meshes under their loads over one mesh period: approach, stiffness and the share of each pair of teeth.
+
+    One line for each name on the first two axes, on the third one for each pair that carries, in the name's colour.
+
+    Parameters
+    ----------
+    meshes : mapping of str to LoadedMesh
+    axes : sequence of three Axes
+    colours : sequence of str
+        Taken in turn.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> from matplotlib import pyplot as plt
+    >>> mesh = gp.mesh_stiffness(gp.SpurPair(), n_phases=50)
+    >>> loaded = gp.teeth.loaded_mesh(mesh, gp.teeth.tip_relief(mesh, 20.0, 20.0, 0.4), 2000.0)
+    >>> axes = under_load({"2 kN": loaded}, plt.figure().subplots(3, 1))
+    >>> axes[0].get_ylabel(), [len(ax.lines) for ax in axes]
+    ('approach (µm)', [1, 1, 2])
+    """
+    for k, (name, loaded) in enumerate(meshes.items()):
+        mesh, colour = loaded.mesh, colours[k % len(colours)]
+        for ax, values in zip(axes, (loaded.approach_um, loaded.stiffness_n_per_m * per_width(mesh)), strict=False):
+            ax.plot(mesh.phase, values, color=colour, label=name)
+        for share in loaded.load_share:
+            axes[2].plot(mesh.phase, np.where(share > 0.0, share, np.nan), color=colour)
+    for ax, ylabel in zip(axes, ("approach (µm)", LABEL_STIFFNESS, "share of the load"), strict=True):
+        ax.set(ylabel=ylabel, xlim=(0.0, 1.0), ylim=(0.0, None))
+    axes[-1].set(xlabel=axis_label("tau"), ylim=(0.0, 1.05))
+    if len(meshes) > 1:
+        axes[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=len(meshes))
+    return list(axes)
 
 
 @checked

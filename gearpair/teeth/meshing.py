@@ -66,6 +66,8 @@ class MeshStiffness:
         ``pinion_foundation``, the same four of the gear, and ``hertz``. They add up to the pair's compliance.
     zones : tuple of Legendre
         The mesh curve in N/m between two changes of the number of pairs, as polynomials of the phase.
+    joint_compliance_m_per_n : ndarray, shape (n, p, p)
+        How far a unit force on one pair moves the pairs of `load_share` together, in m/N; 0 for one out of contact.
     outside_fit : tuple of str
         One sentence for each gear of summed pairs that lies outside the range of the foundation formula.
     """
@@ -82,6 +84,7 @@ class MeshStiffness:
     pair_stiffness_n_per_m: Array
     compliance_m_per_n: Mapping[str, Array]
     zones: tuple[Legendre, ...] = field(repr=False)
+    joint_compliance_m_per_n: Array = field(repr=False)
     outside_fit: tuple[str, ...] = ()
 
     @property
@@ -230,7 +233,8 @@ def mesh_stiffness(
     part = ratio - whole if ratio - whole > 1e-12 else 0.0
     phase = np.arange(n_phases) / n_phases
     pairs = np.where(phase < part, whole + 1, whole)
-    forces = np.zeros((int(pairs.max()), n_phases))
+    most = int(pairs.max())
+    forces, joint = np.zeros((most, n_phases)), np.zeros((n_phases, most, most))
     zones = []
     for left, right, count in ((0.0, part, whole + 1), (part, 1.0, whole)):
         if right > left:
@@ -241,6 +245,7 @@ def mesh_stiffness(
             inside = pairs == count
             places = 2 * (phase[inside] - left) / (right - left) - 1
             forces[:count, inside] = series @ legvander(places, len(_NODES) - 1).T
+            joint[inside, :count, :count] = model.joint(phase[inside], count)
     stiffness = forces.sum(axis=0)
     path = np.linspace(0.0, ratio, math.ceil(ratio * n_phases) + 1)
     parts = model.components(path)
@@ -257,6 +262,7 @@ def mesh_stiffness(
         pair_stiffness_n_per_m=np.asarray(1.0 / sum(parts.values())),
         compliance_m_per_n=parts,
         zones=tuple(zones),
+        joint_compliance_m_per_n=joint,
         outside_fit=model.outside_fit() if foundation and coupling == "summed" else (),
     )
 
@@ -300,15 +306,17 @@ class _Model:
 
     def shared(self, phase: Array, count: int) -> Array:
         """Force on each of `count` pairs for unit approach, shape (count, n)."""
+        return np.asarray(np.linalg.solve(self.joint(phase, count), np.ones((phase.size, count, 1)))[..., 0].T)
+
+    def joint(self, phase: Array, count: int) -> Array:
+        """Compliance matrix of `count` pairs, shape (n, count, count); diagonal where they share no body."""
         positions = phase + np.arange(count)[:, None]
-        own = sum(self.components(positions).values())
-        if self.coupling == "summed" or count == 1:
-            return np.asarray(1.0 / own)
         matrix = np.zeros((phase.size, count, count))
-        matrix[:, range(count), range(count)] = np.asarray(own).T
-        for who in self.teeth:
-            matrix += self.neighbours(who, self.rolls(who, positions))
-        return np.asarray(np.linalg.solve(matrix, np.ones((phase.size, count, 1)))[..., 0].T)
+        matrix[:, range(count), range(count)] = np.asarray(sum(self.components(positions).values())).T
+        if self.coupling != "summed":
+            for who in self.teeth:
+                matrix += self.neighbours(who, self.rolls(who, positions))
+        return matrix
 
     @cached_property
     def bodies(self) -> dict[str, Array]:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from warnings import warn
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_array, check_count, check_number, checked
+from gearpair._checks import check_array, check_count, check_fields, check_number, checked
 from gearpair.oscillator import LARGEST_ORDER, Harmonic, ShaftOrder
 from gearpair.teeth.meshing import MeshStiffness
 
@@ -47,22 +50,127 @@ def tip_relief(mesh: MeshStiffness, pinion_um: float, gear_um: float, length: fl
     return np.asarray(gear_um * start + pinion_um * end)
 
 
+@dataclass(frozen=True)
+class TipRelief:
+    """Linear reliefs of both tips, as they stand on a drawing.
+
+    Parameters
+    ----------
+    pinion_um, gear_um, length : float
+        As in `tip_relief`.
+
+    Examples
+    --------
+    >>> from gearpair.teeth.meshing import mesh_stiffness
+    >>> from gearpair.teeth.spurpair import SpurPair
+    >>> float(TipRelief(20.0, 10.0, 0.4).deviation_um(mesh_stiffness(SpurPair())).max())
+    20.0
+    """
+
+    pinion_um: float
+    gear_um: float
+    length: float
+
+    def __post_init__(self) -> None:
+        check_fields(self, pinion_um={"at_least": 0.0}, gear_um={"at_least": 0.0}, length={"above": 0.0})
+
+    def deviation_um(self, mesh: MeshStiffness) -> Array:
+        """What it takes off a pair of teeth along ``mesh.path``, by `tip_relief`."""
+        return tip_relief(mesh, self.pinion_um, self.gear_um, self.length)
+
+
 @checked
-def profile_error(mesh: MeshStiffness, deviation_um: ArrayLike, *, loaded: bool = True) -> Array:
-    """The static transmission error over a mesh period of teeth that all deviate from the involute alike.
+def pair_deviations(mesh: MeshStiffness, deviation_um: ArrayLike) -> Array:
+    """The deviation of each pair of teeth over a mesh period, all pairs deviating alike.
 
     Parameters
     ----------
     mesh : MeshStiffness
     deviation_um : array_like, shape of ``mesh.path``
         Material missing along the path of contact of one pair, both flanks together, in micrometres.
+
+    Returns
+    -------
+    ndarray, shape of ``mesh.load_share``
+        Micrometres; infinite where the pair is off its path.
+
+    Examples
+    --------
+    >>> from gearpair.teeth.meshing import mesh_stiffness
+    >>> from gearpair.teeth.spurpair import SpurPair
+    >>> mesh = mesh_stiffness(SpurPair(), n_phases=4)
+    >>> pair_deviations(mesh, 2.0 * mesh.path)
+    array([[0. , 0.5, 1. , 1.5],
+           [2. , 2.5, 3. , inf]])
+    """
+    deviation = check_array("deviation_um", deviation_um)
+    if deviation.shape != mesh.path.shape:
+        raise ValueError(
+            f"deviation_um must be finite numbers over the path of contact, shape {mesh.path.shape}, "
+            f"got shape {deviation.shape}"
+        )
+    positions = mesh.phase + np.arange(len(mesh.load_share))[:, None]
+    return np.where(mesh.load_share > 0.0, np.interp(positions, mesh.path, deviation), np.inf)
+
+
+@checked
+def full_contact_force(mesh: MeshStiffness, deviation_um: ArrayLike) -> float:
+    """The least force in newtons at which every pair of teeth carries as long as it is on its path.
+
+    Parameters
+    ----------
+    mesh, deviation_um
+        As in `pair_deviations`.
+
+    Notes
+    -----
+    With the compliance matrix C of the pairs, their stiffness k together, deviations d and load shares s, all pairs
+    carry ``F = s (W + k e) - inverse(C) d`` with ``k e = sum of inverse(C) d``. The least W is the one at which the
+    first of them carries nothing.
+
+    Examples
+    --------
+    >>> from gearpair.teeth.meshing import mesh_stiffness
+    >>> from gearpair.teeth.spurpair import SpurPair
+    >>> mesh = mesh_stiffness(SpurPair())
+    >>> one, two = (full_contact_force(mesh, tip_relief(mesh, um, um, 0.4)) for um in (5.0, 10.0))
+    >>> round(two / one, 9)
+    2.0
+    """
+    each, least = pair_deviations(mesh, deviation_um) * 1e-6, 0.0
+    for count in np.unique(mesh.pairs_in_contact).tolist():
+        inside = mesh.pairs_in_contact == count
+        joint = mesh.joint_compliance_m_per_n[inside, :count, :count]
+        held = np.linalg.solve(joint, each[:count, inside].T[..., None])[..., 0].T
+        least = max(least, float(np.max(held / mesh.load_share[:count, inside] - held.sum(axis=0))))
+    return least
+
+
+@checked
+def profile_error(
+    mesh: MeshStiffness, deviation_um: ArrayLike, *, loaded: bool = True, force_n: float | None = None
+) -> Array:
+    """The static transmission error over a mesh period of teeth that all deviate from the involute alike.
+
+    Parameters
+    ----------
+    mesh, deviation_um
+        As in `pair_deviations`.
     loaded : bool
-        Under enough load for every pair on its path to carry; or by the first pair that touches.
+        Under enough load for every pair on its path to carry; or by the first pair that touches. In between see
+        `gearpair.teeth.loaded_mesh`.
+    force_n : float, optional
+        The load in newtons, to be checked against `full_contact_force`.
 
     Returns
     -------
     ndarray, shape of ``mesh.phase``
         Micrometres, positive where the pinion has to turn further.
+
+    Raises
+    ------
+    ValueError
+        If at `force_n` a pair would have to pull. Where no force is given a warning says from which on none has to.
 
     Notes
     -----
@@ -75,21 +183,26 @@ def profile_error(mesh: MeshStiffness, deviation_um: ArrayLike, *, loaded: bool 
     >>> from gearpair.teeth.meshing import mesh_stiffness
     >>> from gearpair.teeth.spurpair import SpurPair
     >>> mesh = mesh_stiffness(SpurPair())
-    >>> error = profile_error(mesh, tip_relief(mesh, 20.0, 20.0, 0.4))
+    >>> error = profile_error(mesh, tip_relief(mesh, 20.0, 20.0, 0.4), force_n=10e3)
     >>> round(float(error.min()), 6), round(float(error.max()), 1)
     (0.0, 8.4)
     """
-    deviation = check_array("deviation_um", deviation_um)
-    if deviation.shape != mesh.path.shape or not np.all(np.isfinite(deviation)):
+    each = pair_deviations(mesh, deviation_um)
+    if not loaded:
+        return np.asarray(each.min(axis=0))
+    least = full_contact_force(mesh, deviation_um)
+    if force_n is not None and check_number("force_n", force_n, at_least=0.0) < least * (1.0 - 1e-9):
         raise ValueError(
-            f"deviation_um must be finite numbers over the path of contact, shape {mesh.path.shape}, "
-            f"got shape {deviation.shape}"
+            f"force_n must be at least {least:.6g} for every pair of teeth to carry, got {force_n}: below it a pair "
+            "would have to pull, and gearpair.teeth.loaded_mesh has the error"
         )
-    positions = mesh.phase + np.arange(len(mesh.load_share))[:, None]
-    each = np.interp(positions, mesh.path, deviation)
-    if loaded:
-        return np.asarray(np.sum(mesh.load_share * each, axis=0))
-    return np.asarray(np.where(mesh.load_share > 0.0, each, np.inf).min(axis=0))
+    if force_n is None and least > 0.0:
+        warn(
+            f"this error holds from {least:.4g} N on; with less a pair of teeth would have to pull: give force_n, or "
+            "take gearpair.teeth.loaded_mesh",
+            stacklevel=3,
+        )
+    return np.asarray(np.sum(mesh.load_share * np.where(np.isfinite(each), each, 0.0), axis=0))
 
 
 @checked

@@ -6,6 +6,7 @@ from matplotlib import pyplot as plt
 
 from gearpair import mesh_stiffness, plotting
 from gearpair.article import published
+from gearpair.teeth import loaded_mesh, tip_relief
 from gearpair.teeth.finite_elements import MEASURES, finite_element_bodies
 from gearpair.teeth.spurpair import SpurPair
 
@@ -80,6 +81,16 @@ def test_a_pair_enters_with_a_share_carries_all_and_leaves(mesh):
     alone = (time >= mesh.contact_ratio - 1) & (time < 1)
     assert share[alone] == pytest.approx(1.0, rel=1e-12)
     assert (share[~alone] < 0.65).all()
+
+
+def test_a_mesh_under_load_is_drawn_as_found(mesh):
+    loaded = {f"{force:g} N": loaded_mesh(mesh, tip_relief(mesh, 20.0, 20.0, 0.4), force) for force in (1e3, 4e3, 20e3)}
+    axes = plotting.under_load(loaded, plt.subplots(3, 1)[1])
+    for name, each in loaded.items():
+        assert np.array_equal(line(axes[0], name)[1], each.approach_um)
+        assert np.array_equal(line(axes[1], name)[1], each.stiffness_n_per_m * plotting.per_width(mesh))
+    shares = np.array([each.get_ydata() for each in axes[2].lines])
+    assert np.array_equal(np.nan_to_num(shares), np.concatenate([each.load_share for each in loaded.values()]))
 
 
 def test_finite_elements_are_drawn_as_stored():
