@@ -26,7 +26,7 @@ def check_number(
     at_most: float | None = None,
 ) -> float:
     """Return `value` as a float, or raise a ValueError that names it and the allowed range."""
-    is_number = isinstance(value, float) or _is_number(value)  # most are floats, and told faster
+    is_number = isinstance(value, float) or is_number(value)  # most are floats, and told faster
     number = float(value) if is_number else math.nan
     if (
         math.isfinite(number)
@@ -45,7 +45,7 @@ def check_number(
     raise ValueError(f"{name} must be {allowed}, got {number if is_number else shown(value)}")
 
 
-def _is_number(value: Any) -> bool:
+def is_number(value: Any) -> bool:
     """Whether a value is one real number; no truth value, no time, no text."""
     if isinstance(value, (float, Real, Decimal)):
         return not isinstance(value, (bool, np.timedelta64))
@@ -66,10 +66,10 @@ def check_array(
         raise ValueError(f"{name} must be numbers in rows of one length, got {shown(values)}") from None
     if np.ma.is_masked(array):
         raise ValueError(f"{name} must be numbers, got masked ones among them: leave them out")
-    if array.dtype.kind == "O" and array.size and all(map(_is_number, array.flat)):
+    if array.dtype.kind == "O" and array.size and all(map(is_number, array.flat)):
         array = array.astype(float)
     if array.dtype.kind not in "fiu" and array.size:
-        wrong = next((each for each in array.flat if not _is_number(each)), array.flat[0])
+        wrong = next((each for each in array.flat if not is_number(each)), array.flat[0])
         raise ValueError(f"{name} must be real numbers, got {shown(getattr(wrong, 'item', lambda: wrong)())}")
     found = np.asarray(array, dtype=float)
     if ndim is not None and (found.ndim != ndim or found.size == 0):
@@ -264,7 +264,7 @@ def _is_kind(value: Any, kind: Any) -> bool:
     if origin is bool:
         return isinstance(value, (bool, np.bool_))
     if origin in (int, float):  # its range is the function's own
-        return _is_number(value) or isinstance(value, bool)
+        return is_number(value) or isinstance(value, bool)
     if origin is _Dataset:
         return any(each.__name__ == "Dataset" for each in type(value).__mro__)
     if origin is Mapping:

@@ -11,20 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._checks import checked
-from gearpair.motion.impacts import ImpactState
 from gearpair.table import Table
 
 if TYPE_CHECKING:
     import xarray as xr
-
-SEPARATED = (ImpactState.SINGLE_DRIVE, ImpactState.SINGLE_COAST, ImpactState.NEVER_IN_CONTACT, ImpactState.DOUBLE)
-BOTH, ALWAYS, HISTORY, RARE = (
-    "the teeth strike on both flanks",
-    "the teeth part and strike, however the speed is reached",
-    "the teeth part after one way of running there and not after another",
-    "the teeth part after a shock alone, not when run up or down",
-)
-
 
 @dataclass(frozen=True)
 class SpeedRange:
@@ -50,6 +40,7 @@ class SpeedRange:
     dynamic_factor: float
     time_apart: float
     impact_velocity: float
+    worst_phase_rad: float | None = None
 
 
 @checked
@@ -76,40 +67,27 @@ def speeds_to_avoid(chart: xr.Dataset) -> tuple[SpeedRange, ...]:
     >>> speeds_to_avoid(speed_chart(drive, [1000.0, 1500.0], n_starts=2))
     ()
     """
-    speeds = chart.speed.values
-    reasons = [_reason(*states) for states in chart.impact_state.transpose("speed", "run").values.tolist()]
-    worst = chart.sel(run="worst")
+    speeds, losses = chart.speed.values, chart.loss.values.tolist()
     found, first = [], 0
-    for reason, run in groupby(reasons):
+    for lost, run in groupby(losses, key=bool):
         last = first + len(list(run))
-        if reason:
-            here = slice(first, last)
-            found.append(
-                SpeedRange(
-                    _edge(chart, speeds, first),
-                    _edge(chart, speeds, last),
-                    reason,
-                    tuple(dict.fromkeys(worst.motion.values[here].tolist())),
-                    *(
-                        float(np.nanmax(worst[name].values[here]))
-                        for name in ("dynamic_factor", "time_apart", "impact_velocity")
-                    ),
-                )
-            )
+        if lost:
+            found.append(_range(chart, _edge(chart, speeds, first), _edge(chart, speeds, last), slice(first, last)))
         first = last
     return tuple(found)
 
 
-def _reason(up: str, down: str, worst: str) -> str:
-    """Why a speed is to be avoided, from the impact states of both runs and of the worst motion; empty if it is not."""
-    if ImpactState.DOUBLE in (up, down, worst):
-        return BOTH
-    parted = [state in SEPARATED for state in (up, down, worst)]
-    if all(parted):
-        return ALWAYS
-    if any(parted[:2]):
-        return HISTORY
-    return RARE if parted[2] else ""
+def _range(chart: xr.Dataset, lower: float, upper: float, here: slice) -> SpeedRange:
+    there = chart.isel(speed=here)
+    top = int(np.nan_to_num(there.factor_high.values, nan=np.inf).argmax())
+    return SpeedRange(
+        lower,
+        upper,
+        "; elsewhere ".join(dict.fromkeys(there.loss.values.tolist())),
+        tuple(dict.fromkeys(there.motion.sel(run="worst").values.tolist())),
+        *(float(there[name].max()) for name in ("factor_high", "time_apart_high", "impact_velocity_high")),
+        worst_phase_rad=float(there.worst_phase[top]) if chart.attrs["error_phase"] == "unknown" else None,
+    )
 
 
 def _edge(chart: xr.Dataset, speeds: NDArray[np.float64], i: int) -> float:
