@@ -26,8 +26,8 @@ def check_number(
     at_most: float | None = None,
 ) -> float:
     """Return `value` as a float, or raise a ValueError that names it and the allowed range."""
-    is_number = isinstance(value, float) or is_number(value)  # most are floats, and told faster
-    number = float(value) if is_number else math.nan
+    numeric = isinstance(value, float) or is_number(value)  # most are floats, and told faster
+    number = float(value) if numeric else math.nan
     if (
         math.isfinite(number)
         and (above is None or number > above)
@@ -42,7 +42,7 @@ def check_number(
         if limit is not None
     ]
     allowed = "a finite number" + (" " + " and ".join(limits) if limits else "")
-    raise ValueError(f"{name} must be {allowed}, got {number if is_number else shown(value)}")
+    raise ValueError(f"{name} must be {allowed}, got {number if numeric else shown(value)}")
 
 
 def is_number(value: Any) -> bool:

@@ -170,9 +170,9 @@ class GearDrive:
         ----------
         **changes
             Any field of the class, and `damping_ratio`. `transmission_error_um` as in `from_pair`: a number takes the
-            harmonics with it and leaves the phases, a sequence replaces both. Of a drive that comes from `from_pair` also ``pair`` or any
-            field of its `SpurPair`, ``coupling`` and ``n_levels``: with these or a blank, radii, inertias and mesh
-            stiffness are made anew, and the damping ratio stays.
+            harmonics with it and leaves the phases, a sequence replaces both. Of a drive that comes from `from_pair`
+            also ``pair`` or any field of its `SpurPair`, ``coupling`` and ``n_levels``: with these or a blank, radii,
+            inertias and mesh stiffness are made anew, and the damping ratio stays.
 
         Returns
         -------

@@ -155,7 +155,7 @@ ROWS = (
     Quantity("n_motions", "motions found"),
     Quantity("worst_share", "share of the starts that leads to the worst motion"),
     Quantity("worst_phase", "phase of the error of the worst motion", unit="rad"),
-    Quantity("loss", "how contact is lost"),
+    Quantity("loss", "what the teeth do that lose contact"),
     Quantity("factor_low", "largest mesh force over the mean force, at the mildest phase of the error"),
     Quantity("factor_high", "largest mesh force over the mean force, at the worst phase of the error"),
     Quantity("time_apart_high", "largest share of the time without contact"),

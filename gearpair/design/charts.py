@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +12,6 @@ from gearpair._checks import check_array, check_count, check_number, checked
 from gearpair.design.found import KEPT, LOSSES, Found, find_motions, force_of, largest
 from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import linear_response
-from gearpair.design.loads import MEASURES
 from gearpair.drive import GearDrive
 from gearpair.motion.settling import CHART, settle_batch, settle_both_ways
 from gearpair.motion.steady import SteadyState, describe
@@ -21,14 +20,6 @@ from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
     import xarray as xr
-
-# Of a motion in its place among those that were found.
-OF_MOTION: dict[str, Callable[[Found, int], Any]] = {
-    "motion": lambda found, j: str(found.states[j].motion.kind),
-    "period": lambda found, j: found.states[j].period or 0,
-    "impact_state": lambda found, j: str(found.states[j].impact_state or ""),
-    **{name: lambda found, j, name=name: found.loads[j][name] for name in MEASURES},
-}
 
 
 @checked
@@ -75,10 +66,10 @@ def speed_chart(
         `find_jumps`.
 
         Over ``speed``: ``worst_phase`` (rad) of the worst motion, and at it ``n_motions`` and ``worst_share`` of the
-        starts that leads to the worst; ``loss``, how contact is lost at the phase that does most, empty if at none;
-        the largest factor of all motions, ``factor_low`` and ``factor_high``, at the mildest and the worst phase, and
-        ``time_apart_high`` and ``impact_velocity_high``; ``linear_factor`` and ``linear_rms`` (um) of
-        `linear_response` at the phase of the runs; ``mesh_frequency`` (dimensionless).
+        starts that leads to the worst; ``loss``, what the teeth do that lose contact, at the worst phase for it, empty
+        if they do at none; the largest factor of all motions, ``factor_low`` and ``factor_high``, at the mildest and
+        the worst phase, and ``time_apart_high`` and ``impact_velocity_high``; ``linear_factor`` and ``linear_rms``
+        (um) of `linear_response` at the phase of the runs; ``mesh_frequency`` (dimensionless).
 
         The attribute ``run_phase_rad`` is the phase of the runs, ``error_phase`` tells ``"known"`` from ``"unknown"``.
 
@@ -126,7 +117,7 @@ def at_phases(drive: GearDrive, n_phases: int) -> list[GearDrive]:
 
 
 def worst_of(forces: Sequence[Sequence[float]]) -> int:
-    """The place of the row with the largest mesh force; one that is nan, of a motion without bound, is larger than any."""
+    """The place of the row with the largest mesh force, than which nan, of a motion without bound, is larger."""
     return int(np.argmax([np.nan_to_num(row, nan=np.inf).max() for row in forces]))
 
 
@@ -207,14 +198,17 @@ def _dataset(
     import xarray as xr  # here, so that importing gearpair stays quick
 
     phases = [each.error_phase_rad or 0.0 for each in drives]
-    worst = [int(np.argmax([force_of(each.loads[each.worst]) for each in column])) for column in zip(*seen, strict=True)]
+    worst = [
+        int(np.argmax([force_of(each.loads[each.worst]) for each in column])) for column in zip(*seen, strict=True)
+    ]
     at_worst = [seen[k][i] for i, k in enumerate(worst)]
-    shown = {  # of each run the motions found at each speed, and the place of its own among them
-        "up": [(each, 0) for each in seen[chosen]],
-        "down": [(each, each.down) for each in seen[chosen]],
-        "worst": [(each, each.worst) for each in at_worst],
+    shown = {
+        "up": [each.row(0) for each in seen[chosen]],
+        "down": [each.row(each.down) for each in seen[chosen]],
+        "worst": [each.row(each.worst) for each in at_worst],
     }
-    columns = {name: [[get(*each) for each in run] for run in shown.values()] for name, get in OF_MOTION.items()}
+    names = shown["up"][0]
+    columns: dict[str, Any] = {name: [[row[name] for row in run] for run in shown.values()] for name in names}
     columns |= _jump_columns(speeds, jumps, drives[0].resonance_rpm)
     linear = [linear_response(osc) for osc in oscillators]
     of_speed = {

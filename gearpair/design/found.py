@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -11,13 +12,13 @@ from gearpair.motion.impacts import ImpactState
 from gearpair.motion.steady import SteadyState
 
 KEPT = ""  # the teeth stay in contact
-FLOAT, RARE, HISTORY, ALWAYS, BOTH, UNBOUNDED = LOSSES = (  # how contact is lost, the worst last
-    "nothing presses the teeth together: they float in the backlash without impacts",
-    "the teeth part after a shock alone, not when run up or down",
-    "the teeth part after one way of running there and not after another",
-    "the teeth part and strike, however the speed is reached",
-    "the teeth strike on both flanks",
-    "a motion leaves what the model can follow",
+FLOAT, RARE, HISTORY, ALWAYS, BOTH, UNBOUNDED = LOSSES = (  # what the teeth do else, the worst last
+    "float in the backlash without impacts",
+    "part after a shock alone, not when run up or down",
+    "part after one way of running there and not after another",
+    "part and strike, however the speed is reached",
+    "strike on both flanks",
+    "leave what the model can follow",
 )
 ONE_FLANK = (ImpactState.SINGLE_DRIVE, ImpactState.SINGLE_COAST)
 
@@ -47,6 +48,12 @@ class Found:
     def worst(self) -> int:
         """The place of the motion with the largest force."""
         return int(np.argmax([force_of(each) for each in self.loads]))
+
+    def row(self, j: int) -> dict[str, Any]:
+        """What a chart tells of the motion at a place."""
+        state = self.states[j]
+        names = {"motion": str(state.motion.kind), "period": state.period or 0}
+        return {**names, "impact_state": str(state.impact_state or ""), **self.loads[j]}
 
     def largest(self, name: str) -> float:
         """Of one of the `MEASURES` over all motions that stayed bounded; nan where there is none."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import fields
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -62,8 +62,8 @@ def sensitivity(
         Over ``(change, end)``, the end being ``"low"`` or ``"high"``: ``value``, ``contact_ratio`` (nan without a mesh)
         and the worst over both runs of ``dynamic_factor``, ``mesh_force`` (N), ``time_apart`` and ``impact_range``
         (rpm). The same of the drive as it is in ``base_dynamic_factor`` and so on, and over ``change`` its
-        ``base_value``. Where the phase of the error is unknown, all are at the one, ``phase_rad``, at which the mesh force
-        of the drive as it is becomes largest.
+        ``base_value``. Where the phase of the error is unknown, all are at the one, ``phase_rad``, at which the mesh
+        force of the drive as it is becomes largest.
 
     Notes
     -----
@@ -101,7 +101,7 @@ def sensitivity(
     shape = (len(chosen), 2)
     outcome = np.array(rows[1:]).reshape(*shape, len(OUTCOMES))
     ratios = [each.mesh.contact_ratio if each.mesh else np.nan for each in drives[1:]]
-    variables = {
+    variables: dict[str, Any] = {
         name: (("change", "end"), outcome[:, :, k], attributes(worst))
         for k, (name, worst) in enumerate(OUTCOMES.items())
     } | {f"base_{name}": ((), rows[0][k]) for k, name in enumerate(OUTCOMES)}
@@ -120,7 +120,9 @@ def _at_worst_phase(
     if len(drives) == 1:
         return drives[0]
     runs = carried_runs([oscillators_at(each, speeds) for each in drives], n_transient, progress=progress)
-    return drives[worst_of([[measure_motion(drive, state)["mesh_force"] for state in (*up, *down)] for up, down in runs])]
+    return drives[
+        worst_of([[measure_motion(drive, state)["mesh_force"] for state in (*up, *down)] for up, down in runs])
+    ]
 
 
 def _default_ranges(drive: GearDrive) -> dict[str, tuple[float, float]]:
