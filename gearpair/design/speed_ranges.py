@@ -88,6 +88,7 @@ def speeds_to_avoid(chart: xr.Dataset) -> tuple[SpeedRange, ...]:
 def _range(chart: xr.Dataset, first: int, last: int) -> SpeedRange:
     there = chart.isel(speed=slice(first, last))
     top = int(np.nan_to_num(there.factor_high.values, nan=np.inf).argmax())
+    told = chart.attrs["error_phase"] == "unknown" and there.factor_high.notnull().any()
     ways = dict.fromkeys(loss for loss in there.loss.values.tolist() if loss)
     return SpeedRange(
         _edge(chart, first, min),
@@ -97,7 +98,7 @@ def _range(chart: xr.Dataset, first: int, last: int) -> SpeedRange:
         dynamic_factor=float(there.factor_high.max()),
         time_apart=float(there.time_apart_high.max()),
         impact_velocity=float(there.impact_velocity_high.max()),
-        worst_phase_rad=float(there.worst_phase[top]) if chart.attrs["error_phase"] == "unknown" else None,
+        worst_phase_rad=float(there.worst_phase[top]) if told else None,
     )
 
 

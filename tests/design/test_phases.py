@@ -84,15 +84,13 @@ def test_no_phase_between_those_taken_is_much_worse(phase, load):
 
 
 @pytest.mark.slow
-def test_the_largest_factor_at_half_a_period_is_as_known():
-    """Of runs up and down; the chapter's pair, before its error had a phase."""
-    drive = DRIVE.replace(coupling="ring")
-    over = np.linspace(0.15, 1.35, 41) * drive.resonance_rpm
-    at = [float(speed_chart(drive.at_phase(p), over, **RUNS_ALONE).factor_high.max()) for p in (0.0, np.pi)]
-    worst = speed_chart(drive, over, **RUNS_ALONE)
+def test_a_sine_that_counters_the_stiffness_turned_by_half_a_period_adds_to_it():
+    """The same chart told of phase 0 alone gives a verdict far better than it may be."""
+    over = np.linspace(0.15, 1.35, 41) * DRIVE.resonance_rpm
+    at = [float(speed_chart(DRIVE.at_phase(p), over, **RUNS_ALONE).factor_high.max()) for p in (0.0, np.pi)]
+    worst = speed_chart(DRIVE, over, **RUNS_ALONE)
     assert at[1] > 1.2 * at[0]
     assert float(worst.factor_high.max()) >= at[1]
-    assert not speed_range_table(speeds_to_avoid(worst)).to_html() == ""
 
 
 def test_sensitivities_are_at_the_worst_phase():
