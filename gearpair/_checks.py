@@ -277,6 +277,8 @@ def _is_kind(value: Any, kind: Any) -> bool:
 def _check_members(name: str, value: Any, kind: Any) -> None:
     """Raise a TypeError for a wrong member of a sequence or a mapping that can be looked through twice."""
     origin, inside = get_origin(kind), get_args(kind)
+    if is_number(value):  # an array without dimensions is no sequence
+        return
     if origin is Mapping and isinstance(value, Mapping):
         kinds, members = _kinds(inside[1]), list(value.items())
     elif origin in (list, Sequence, Iterable) and isinstance(value, (list, tuple, np.ndarray)):

@@ -56,7 +56,7 @@ def dynamic_factors(
     ...     backlash_um=80.0, transmission_error_um=5.0, damping_ratio=0.08)
     >>> ax = dynamic_factors(gp.design.speed_chart(drive, [2000.0, 4000.0], n_starts=2))
     >>> [text.get_text() for text in ax.get_legend().get_texts()]
-    ['linear response', 'any phase, worst 180°', 'run up', 'run down']
+    ['linear response', 'any phase, worst 90°', 'run up', 'run down']
     """
     ax = new_axes(ax, 4.6)
     speed = chart.speed.values
