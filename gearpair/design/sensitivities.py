@@ -80,11 +80,12 @@ def sensitivity(
     speeds = check_speeds(speeds_rpm)
     chosen = _default_ranges(drive) if ranges is None else dict(ranges)
     base = [_value(drive, name) for name in chosen]
-    drive = _at_worst_phase(drive, speeds, n_phases, n_transient, progress)
-    drives, values = [drive], []
     for name, ends in chosen.items():
         if len(ends) != 2:
             raise ValueError(f"the range of {name} must be a low and a high value, got {ends!r}")
+    drive = _at_worst_phase(drive, speeds, n_phases, n_transient, progress)
+    drives, values = [drive], []
+    for name, ends in chosen.items():
         for value in ends:
             values.append(check_number(name, value))
             drives.append(drive.replace(**{name: values[-1]}))
@@ -120,9 +121,8 @@ def _at_worst_phase(
     if len(drives) == 1:
         return drives[0]
     runs = carried_runs([oscillators_at(each, speeds) for each in drives], n_transient, progress=progress)
-    return drives[
-        worst_of([[measure_motion(drive, state)["mesh_force"] for state in (*up, *down)] for up, down in runs])
-    ]
+    forces = [[measure_motion(drive, state)["mesh_force"] for state in (*up, *down)] for up, down in runs]
+    return drives[worst_of(forces)]
 
 
 def _default_ranges(drive: GearDrive) -> dict[str, tuple[float, float]]:

@@ -15,9 +15,8 @@ from gearpair.table import Table
 
 if TYPE_CHECKING:
     import xarray as xr
-NARROWEST = (
-    0.05  # of two speeds at which the teeth part, in shares of the speed: what lies between is no range to run in
-)
+
+NARROWEST = 0.05  # of a speed: between speeds at which the teeth part, what is narrower is no range to run in
 
 
 @dataclass(frozen=True)
