@@ -26,8 +26,8 @@ def check_number(
     at_most: float | None = None,
 ) -> float:
     """Return `value` as a float, or raise a ValueError that names it and the allowed range."""
-    is_number = isinstance(value, float) or _is_number(value)  # most are floats, and told faster
-    number = float(value) if is_number else math.nan
+    numeric = isinstance(value, float) or is_number(value)  # most are floats, and told faster
+    number = float(value) if numeric else math.nan
     if (
         math.isfinite(number)
         and (above is None or number > above)
@@ -42,10 +42,10 @@ def check_number(
         if limit is not None
     ]
     allowed = "a finite number" + (" " + " and ".join(limits) if limits else "")
-    raise ValueError(f"{name} must be {allowed}, got {number if is_number else shown(value)}")
+    raise ValueError(f"{name} must be {allowed}, got {number if numeric else shown(value)}")
 
 
-def _is_number(value: Any) -> bool:
+def is_number(value: Any) -> bool:
     """Whether a value is one real number; no truth value, no time, no text."""
     if isinstance(value, (float, Real, Decimal)):
         return not isinstance(value, (bool, np.timedelta64))
@@ -66,10 +66,10 @@ def check_array(
         raise ValueError(f"{name} must be numbers in rows of one length, got {shown(values)}") from None
     if np.ma.is_masked(array):
         raise ValueError(f"{name} must be numbers, got masked ones among them: leave them out")
-    if array.dtype.kind == "O" and array.size and all(map(_is_number, array.flat)):
+    if array.dtype.kind == "O" and array.size and all(map(is_number, array.flat)):
         array = array.astype(float)
     if array.dtype.kind not in "fiu" and array.size:
-        wrong = next((each for each in array.flat if not _is_number(each)), array.flat[0])
+        wrong = next((each for each in array.flat if not is_number(each)), array.flat[0])
         raise ValueError(f"{name} must be real numbers, got {shown(getattr(wrong, 'item', lambda: wrong)())}")
     found = np.asarray(array, dtype=float)
     if ndim is not None and (found.ndim != ndim or found.size == 0):
@@ -275,7 +275,7 @@ def _is_kind(value: Any, kind: Any) -> bool:
     if origin is bool:
         return isinstance(value, (bool, np.bool_))
     if origin in (int, float):  # its range is the function's own
-        return _is_number(value) or isinstance(value, bool)
+        return is_number(value) or isinstance(value, bool)
     if origin is _Dataset:
         return any(each.__name__ == "Dataset" for each in type(value).__mro__)
     if origin is Mapping:
@@ -288,6 +288,8 @@ def _is_kind(value: Any, kind: Any) -> bool:
 def _check_members(name: str, value: Any, kind: Any) -> None:
     """Raise a TypeError for a wrong member of a sequence or a mapping that can be looked through twice."""
     origin, inside = get_origin(kind), get_args(kind)
+    if is_number(value):  # an array without dimensions is no sequence
+        return
     if origin is Mapping and isinstance(value, Mapping):
         kinds, members = _kinds(inside[1]), list(value.items())
     elif origin in (list, Sequence, Iterable) and isinstance(value, (list, tuple, np.ndarray)):

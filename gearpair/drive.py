@@ -4,12 +4,11 @@ import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from numbers import Real
 from typing import Any, Self
 
 import numpy as np
 
-from gearpair._checks import check_class, check_count, check_fields, check_number, checked
+from gearpair._checks import check_class, check_count, check_fields, check_number, checked, is_number
 from gearpair.oscillator import (
     Harmonic,
     Oscillator,
@@ -61,8 +60,8 @@ class GearDrive:
         The whole backlash along the line of action, 2 b_h.
     transmission_error_um : float
         e_a, the amplitude of the static transmission error ``e(t) = e_a sin(omega_h t + psi)``.
-    error_phase_rad : float
-        psi.
+    error_phase_rad : float, optional
+        psi, which no drawing tells: unknown when not given, and then `gearpair.design.speed_chart` takes the worst.
     mean_stiffness_n_per_um : float
         k_m, the mesh stiffness that `stiffness` is relative to.
     damping_n_s_per_m : float
@@ -71,7 +70,7 @@ class GearDrive:
         k_h(t) / k_m over the mesh period.
     error_harmonics : sequence of (order, amplitude, phase)
         What the transmission error has besides its first harmonic: orders from 2, amplitudes in micrometres, phases
-        in radians, as `Harmonic`.
+        in radians, as `Harmonic`. Where `error_phase_rad` is unknown, they hold for a first phase of 0.
     shaft_orders : sequence of (teeth, amplitude, phase, order)
         Run-out and other errors that repeat with a wheel's revolution: its number of teeth, amplitude in micrometres,
         phase in radians and waves a revolution (one, if left out), as `gearpair.oscillator.ShaftOrder`.
@@ -113,7 +112,7 @@ class GearDrive:
     transmission_error_um: float
     mean_stiffness_n_per_um: float
     damping_n_s_per_m: float
-    error_phase_rad: float = 0.0
+    error_phase_rad: float | None = None
     stiffness: StiffnessWave = field(default_factory=StiffnessWave.rectangular)
     error_harmonics: tuple[Harmonic, ...] = ()
     shaft_orders: tuple[ShaftOrder, ...] = ()
@@ -158,8 +157,8 @@ class GearDrive:
         pinion_torque_nm, backlash_um, pinion_speed_rpm : float
             As in `GearDrive`; `SpurPair.normal_backlash_um` makes one of other statements of the backlash.
         transmission_error_um : float or sequence of (order, amplitude, phase)
-            The amplitude e_a of a sinusoid, or all harmonics from order 1, as `gearpair.teeth.error_harmonics`
-            gives them; micrometres and radians.
+            The amplitude e_a of a sinusoid whose phase is unknown, or all harmonics from order 1 with their phases, as
+            `gearpair.teeth.error_harmonics` gives them; micrometres and radians.
         damping_ratio : float
             zeta, from which ``c_h = 2 zeta sqrt(k_m m_e)``.
         pinion_blank, gear_blank : GearBlank
@@ -207,10 +206,10 @@ class GearDrive:
         ----------
         **changes
             Any field of the class, and `damping_ratio`. `transmission_error_um` as in `from_pair`: a number takes the
-            harmonics with it, a sequence replaces them. Of a drive that comes from `from_pair` also ``pair`` or any
-            field of its `SpurPair`, ``coupling``, ``n_levels`` and ``relief``: with these or a blank, radii, inertias
-            and mesh stiffness are made anew, and the damping ratio stays. So it does where the tips are relieved and
-            the torque changes, for stiffness and error follow it.
+            harmonics with it and leaves the phases, a sequence replaces both. Of a drive that comes from `from_pair`
+            also ``pair`` or any field of its `SpurPair`, ``coupling``, ``n_levels`` and ``relief``: with these or a
+            blank, radii, inertias and mesh stiffness are made anew, and the damping ratio stays. So it does where the
+            tips are relieved and the torque changes, for stiffness and error follow it.
 
         Returns
         -------
@@ -270,7 +269,7 @@ class GearDrive:
 
     def _error(self, given: Error) -> dict[str, Any]:
         """The fields of a transmission error from its amplitude, or from all its harmonics."""
-        if isinstance(given, Real):
+        if is_number(given):
             size = check_number("transmission_error_um", given, at_least=0.0)
             present = self.transmission_error_um
             others = [Harmonic(n, each * size / present, phase) for n, each, phase in self.error_harmonics if present]
@@ -286,6 +285,26 @@ class GearDrive:
     def at_speed(self, pinion_speed_rpm: float) -> Self:
         """The drive at another speed of the pinion."""
         return dataclasses.replace(self, pinion_speed_rpm=pinion_speed_rpm)
+
+    def at_phase(self, error_phase_rad: float) -> Self:
+        """The drive whose whole transmission error is moved along the mesh period until its first harmonic has a phase.
+
+        Examples
+        --------
+        >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
+        ...     transmission_error_um=[(1, 5.0, 0.0), (2, 1.0, 0.5)], damping_ratio=0.05)
+        >>> drive.at_phase(0.25).error_phase_rad, drive.at_phase(0.25).error_harmonics[0].phase
+        (0.25, 1.0)
+        """
+        phase = check_number("error_phase_rad", error_phase_rad)
+        moved = phase - (self.error_phase_rad or 0.0)
+        others = tuple(Harmonic(n, size, at + n * moved) for n, size, at in self.error_harmonics)
+        return dataclasses.replace(self, error_phase_rad=phase, error_harmonics=others)
+
+    @property
+    def phase_is_unknown(self) -> bool:
+        """Whether there is a transmission error of which nothing says how it stands to the stiffness."""
+        return self.error_phase_rad is None and bool(self.transmission_error_um or self.error_harmonics)
 
     @property
     def equivalent_mass_kg(self) -> float:
@@ -344,7 +363,7 @@ class GearDrive:
     @property
     def all_harmonics(self) -> tuple[Harmonic, ...]:
         """All harmonics of the transmission error of the flank that carries the torque, in micrometres."""
-        alike = (Harmonic(1, self.transmission_error_um, self.error_phase_rad), *self.error_harmonics)
+        alike = (Harmonic(1, self.transmission_error_um, self.error_phase_rad or 0.0), *self.error_harmonics)
         turned = np.pi if self.pinion_torque_nm < 0.0 else 0.0
         profile = [Harmonic(order, size, phase + turned) for order, size, phase in self.profile_harmonics]
         return summed_harmonics(*alike, *profile) if profile else alike
@@ -357,7 +376,10 @@ class GearDrive:
         return loaded_mesh(self.mesh, self.relief.deviation_um(self.mesh), abs(self.mean_force_n))
 
     def oscillator(self) -> Oscillator:
-        """The dimensionless oscillator of this drive at its speed (the article, item M5)."""
+        """The dimensionless oscillator of this drive at its speed (the article, item M5).
+
+        A phase that is unknown is taken as 0, which is often near the best there is: `at_phase` takes another.
+        """
         first, *others = self.all_harmonics
         return Oscillator(
             mean_force=self.mean_force_n / self.unit_force_n,

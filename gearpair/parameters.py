@@ -34,7 +34,7 @@ STARTS = ("first_start", "second_start")
 SPEEDS = ("lowest_rpm", "highest_rpm")  # none: the chapter's choice
 RANGES = (("lowest", "highest"), ("lower", "upper"), ("frequency_from", "frequency_to"), SPEEDS)
 AXES = ("n_values", "n_fine", "n_x", "n_v", "n_speeds")  # from one end to another
-FEWEST = dict.fromkeys(AXES, 2) | {"n_transient": 0, "n_starts": 0}  # of another n_... : 1
+FEWEST = dict.fromkeys(AXES, 2) | {"n_transient": 0, "n_starts": 0, "n_speeds": 5}  # of another n_... : 1
 # What a chapter computes in one go: as many motions as these numbers make together, where it has them.
 PARTS = (
     *(("n_values",), ("n_fine",), ("n_reached",), ("n_x", "n_v"), ("n_frequency", "n_other")),

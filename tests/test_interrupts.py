@@ -35,7 +35,7 @@ CALLS = {
     "impact_measures": "gp.motion.impact_measures(gp.steady_state(osc), n_periods=4 * 10**6)",
     "stroboscopic_map": "gp.stroboscopic_map(osc, 1.0, 0.0, 4 * 10**7)",
     "find_orbits": "gp.find_orbits(osc, 12, n_starts=10**6)",
-    "speed_chart": "gp.design.speed_chart(DRIVE, np.linspace(1500.0, 9000.0, 3000), n_starts=100)",
+    "speed_chart": "gp.design.speed_chart(DRIVE, np.linspace(1500.0, 9000.0, 3000), n_starts=12)",
 }
 SETTING = (
     "import sys, time\nimport numpy as np\nimport gearpair as gp\n" + CHAOS + "X = np.linspace(-4, 4, 200)\n"

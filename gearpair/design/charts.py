@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_array, check_count, check_number, checked
+from gearpair.design.found import KEPT, LOSSES, Found, find_motions, force_of, largest
 from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import linear_response
-from gearpair.design.loads import MEASURES, measure_motion, one_error_for_both, same_motion
 from gearpair.drive import GearDrive
 from gearpair.motion.settling import CHART, settle_batch, settle_both_ways
 from gearpair.motion.steady import SteadyState, describe
@@ -21,8 +21,6 @@ from gearpair.quantities import attributes
 if TYPE_CHECKING:
     import xarray as xr
 
-RUNS = ("up", "down", "worst")
-
 
 @checked
 def speed_chart(
@@ -30,11 +28,12 @@ def speed_chart(
     speeds_rpm: ArrayLike,
     *,
     n_starts: int = 16,
+    n_phases: int = 8,
     n_transient: int | None = None,
     locate_jumps: bool = True,
     progress: bool = False,
 ) -> xr.Dataset:
-    """What a drive does over a range of speeds, in SI units.
+    """What a drive does over a range of speeds, in SI units, at the worst phase of its error if that is unknown.
 
     Parameters
     ----------
@@ -43,8 +42,10 @@ def speed_chart(
     speeds_rpm : array_like of float, shape (n,)
         Of the pinion, rising, at least two.
     n_starts : int
-        Starts at each speed, spread evenly over a rectangle of X and X' about the backlash and the static deflection;
-        they find the motions that no run meets, and what share of the starts leads to each.
+        Starts at each speed and phase, spread evenly over a rectangle of X and X' about the backlash and the static
+        deflection; they find the motions that no run meets, and what share of the starts leads to each.
+    n_phases : int
+        Phases of the transmission error, spread evenly from 0, where it is unknown (`GearDrive.phase_is_unknown`).
     n_transient : int, optional
         Mesh periods at most before a motion is judged; `gearpair.motion.transient_periods` when not given. One that has
         not settled then is watched for 20 000 more before it is called chaos.
@@ -56,13 +57,22 @@ def speed_chart(
     Returns
     -------
     xarray.Dataset
-        Over ``(run, speed)``, the run being ``"up"``, ``"down"`` or ``"worst"`` (the motion with the largest tooth
-        force of all that were found at that speed): ``motion``, ``period``, ``impact_state``, ``dte_rms``,
-        ``dte_peak_to_peak`` (um), ``mesh_force``, ``tooth_force`` (N), ``dynamic_factor``, ``time_apart``,
-        ``impact_rate`` (1/s), ``impact_velocity`` (mm/s) and ``both_flanks``, whether one error served both flanks.
-        Over ``speed``: ``n_motions``, ``worst_share`` of the starts that leads to the worst motion, ``linear_factor``
-        and ``linear_rms`` (um) of `linear_response`, ``mesh_frequency`` (dimensionless). Over ``jump``: ``jump_speed``
-        (rpm), ``jump_run``, ``jump_kind``, ``jump_from`` and ``jump_to``, see `find_jumps`.
+        Over ``(run, speed)``, the run being ``"up"`` or ``"down"`` at the worst phase of the range (the one with the
+        largest mesh force), or ``"worst"`` (the motion with the largest tooth force of all that were found at that
+        speed and any phase; by mesh force where the drive has no `mesh`): ``motion``, ``period``, ``impact_state``,
+        ``dte_rms``, ``dte_peak_to_peak`` (um), ``mesh_force``, ``tooth_force`` (N), ``dynamic_factor``,
+        ``time_apart``, ``impact_rate`` (1/s), ``impact_velocity`` (mm/s) and ``both_flanks``, whether one error of
+        the profile served both flanks; of the jump by which a run came to that
+        speed ``jump_speed`` (rpm, nan where there is none), ``jump_kind``, ``jump_from`` and ``jump_to``, see
+        `find_jumps`.
+
+        Over ``speed``: ``worst_phase`` (rad) of the worst motion, and at it ``n_motions`` and ``worst_share`` of the
+        starts that leads to the worst; ``loss``, what the teeth do that lose contact, at the worst phase for it, empty
+        if they do at none; the largest factor of all motions, ``factor_low`` and ``factor_high``, at the mildest and
+        the worst phase, and ``time_apart_high`` and ``impact_velocity_high``; ``linear_factor`` and ``linear_rms``
+        (um) of `linear_response` at the phase of the runs; ``mesh_frequency`` (dimensionless).
+
+        The attribute ``run_phase_rad`` is the phase of the runs, ``error_phase`` tells ``"known"`` from ``"unknown"``.
 
     Notes
     -----
@@ -87,36 +97,32 @@ def speed_chart(
     """
     speeds = check_speeds(speeds_rpm)
     n_starts = check_count("n_starts", n_starts, at_least=0)
-    oscillators = oscillators_at(drive, speeds)
-    up, down = carried_runs([oscillators], n_transient, progress=progress)[0]
-    started = settled_starts(oscillators, n_starts, n_transient, progress=progress)
-    n_motions, worst_share = [], []
-    shown: tuple[list[tuple[SteadyState, dict[str, float]]], ...] = ([], [], [])  # of each run
-    for i in range(len(speeds)):
-        found, counts = [up[i]], [0]
-        for state, count in [(down[i], 0), *((each, 1) for each in started[i])]:
-            same = [j for j, other in enumerate(found) if same_motion(other, state)]
-            if same:
-                counts[same[0]] += count
-            else:
-                found.append(state)
-                counts.append(count)
-        loads = [measure_motion(drive, state) for state in found]
-        worst = int(np.argmax([np.nan_to_num(each["mesh_force"], nan=np.inf) for each in loads]))
-        down_at = next(j for j, other in enumerate(found) if same_motion(other, down[i]))
-        n_motions.append(len(found))
-        worst_share.append(counts[worst] / n_starts if n_starts else np.nan)
-        for run, j in zip(shown, (0, down_at, worst), strict=True):
-            run.append((found[j], loads[j]))
-    columns: dict[str, list[list[Any]]] = {
-        "motion": [[str(state.motion.kind) for state, _ in run] for run in shown],
-        "period": [[state.period or 0 for state, _ in run] for run in shown],
-        "impact_state": [[str(state.impact_state or "") for state, _ in run] for run in shown],
-        **{name: [[each[name] for _, each in run] for run in shown] for name in MEASURES},
-        "both_flanks": [[one_error_for_both(drive, state) for state, _ in run] for run in shown],
-    }
-    jumps = find_jumps(up, down) if locate_jumps else []
-    return _dataset(drive, speeds, oscillators, columns, n_motions, worst_share, jumps)
+    drives, n = at_phases(drive, n_phases), len(speeds)
+    ranges = [oscillators_at(each, speeds) for each in drives]
+    runs = carried_runs(ranges, n_transient, progress=progress)
+    started = settled_starts([osc for each in ranges for osc in each], n_starts, n_transient, progress=progress)
+    seen = [  # of each phase, at each speed
+        [find_motions(drive, *motions) for motions in zip(up, down, started[k * n : k * n + n], strict=True)]
+        for k, (up, down) in enumerate(runs)
+    ]
+    chosen = worst_of([[load["mesh_force"] for each in row for load in each.loads] for row in seen])
+    jumps = find_jumps(*runs[chosen]) if locate_jumps else []
+    return _dataset(drives, speeds, ranges[chosen], seen, chosen, n_starts, jumps).assign_attrs(
+        drive=repr(drive), mean_force_n=drive.mean_force_n, error_phase="unknown" if drive.phase_is_unknown else "known"
+    )
+
+
+def at_phases(drive: GearDrive, n_phases: int) -> list[GearDrive]:
+    """The drive at phases of its error that are spread evenly from 0; itself alone where the phase is known."""
+    n_phases = check_count("n_phases", n_phases)
+    if not drive.phase_is_unknown:
+        return [drive]
+    return [drive.at_phase(2.0 * np.pi * k / n_phases) for k in range(n_phases)]
+
+
+def worst_of(forces: Sequence[Sequence[float]]) -> int:
+    """The place of the row with the largest mesh force, than which nan, of a motion without bound, is larger."""
+    return int(np.argmax([np.nan_to_num(row, nan=np.inf).max() for row in forces]))
 
 
 def check_speeds(speeds_rpm: ArrayLike) -> NDArray[np.float64]:
@@ -148,7 +154,7 @@ def carried_runs(
     """
     n = len(ranges[0])
     lanes = [osc for each in ranges for osc in each]
-    starts = np.array([(1.0 + max(osc.mean_force, 0.0) / osc.stiffness.mean, 0.0) for osc in lanes])
+    starts = np.array([(drive_side(osc) + osc.mean_force / osc.stiffness.mean, 0.0) for osc in lanes])
     both = settle_both_ways(lanes, starts, CHART.having({"n_transient": n_transient}), chain=n, progress=progress)
     up, down = ([describe(osc, out, i) for i, osc in enumerate(lanes)] for out in both)
     return [(up[i : i + n], down[i : i + n]) for i in range(0, len(lanes), n)]
@@ -171,46 +177,87 @@ def spread_starts(osc: Oscillator, n: int) -> NDArray[np.float64]:
     """Starts spread evenly over a rectangle (an additive recurrence of low discrepancy), shape (n, 2).
 
     X reaches from as far beyond the coast flank as the static deflection, at least 1, to three times that beyond the
-    drive flank; X' up to one and a half times it, each way.
+    drive flank; X' up to one and a half times it, each way. Mirrored where the mean force is negative.
     """
-    size = max(1.0, abs(osc.mean_force) / osc.stiffness.mean)
+    size, sign = max(1.0, abs(osc.mean_force) / osc.stiffness.mean), drive_side(osc)
     share = np.mod(0.5 + np.arange(1, n + 1)[:, None] * np.array([0.7548776662466927, 0.5698402909980532]), 1.0)
     low, high = np.array([-1.0 - size, -1.5 * size]), np.array([1.0 + 3.0 * size, 1.5 * size])
-    return np.asarray(low + share * (high - low))
+    return np.asarray(sign * (low + share * (high - low)))
+
+
+def drive_side(osc: Oscillator) -> float:
+    """1 where the mean force presses the teeth to X = 1, or is none, -1 where to X = -1."""
+    return -1.0 if osc.mean_force < 0.0 else 1.0
 
 
 def _dataset(
-    drive: GearDrive,
+    drives: list[GearDrive],
     speeds: NDArray[np.float64],
     oscillators: list[Oscillator],
-    columns: dict[str, list[list[Any]]],
-    n_motions: list[int],
-    worst_share: list[float],
+    seen: list[list[Found]],
+    chosen: int,
+    n_starts: int,
     jumps: list[Jump],
 ) -> xr.Dataset:
     import xarray as xr  # here, so that importing gearpair stays quick
 
-    variables: dict[str, Any] = {
-        name: (("run", "speed"), np.array(column), attributes(name)) for name, column in columns.items()
+    phases = [each.error_phase_rad or 0.0 for each in drives]
+    worst = [
+        int(np.argmax([force_of(each.loads[each.worst]) for each in column])) for column in zip(*seen, strict=True)
+    ]
+    at_worst = [seen[k][i] for i, k in enumerate(worst)]
+    shown = {
+        "up": [each.row(0) for each in seen[chosen]],
+        "down": [each.row(each.down) for each in seen[chosen]],
+        "worst": [each.row(each.worst) for each in at_worst],
     }
+    names = shown["up"][0]
+    columns: dict[str, Any] = {name: [[row[name] for row in run] for run in shown.values()] for name in names}
+    columns |= _jump_columns(speeds, jumps, drives[0].resonance_rpm)
     linear = [linear_response(osc) for osc in oscillators]
-    unit_um = drive.half_backlash_m * 1e6
     of_speed = {
-        "n_motions": n_motions,
-        "worst_share": worst_share,
+        "worst_phase": [phases[k] for k in worst],
+        "n_motions": [len(each.states) for each in at_worst],
+        "worst_share": [each.counts[each.worst] / n_starts if n_starts else np.nan for each in at_worst],
+        **_over_phases(seen),
         "linear_factor": [each.load_factor for each in linear],
-        "linear_rms": [each.x_rms * unit_um for each in linear],
+        "linear_rms": [each.x_rms * drives[0].half_backlash_m * 1e6 for each in linear],
     }
-    variables |= {name: ("speed", np.array(values), attributes(name)) for name, values in of_speed.items()}
+    variables: dict[str, Any] = {
+        **{name: (("run", "speed"), np.array(column), attributes(name)) for name, column in columns.items()},
+        **{name: ("speed", np.array(values), attributes(name)) for name, values in of_speed.items()},
+    }
     ratios = np.array([osc.mesh_frequency for osc in oscillators])
     variables["mesh_frequency"] = ("speed", ratios, attributes("frequency_ratio"))
-    at = np.array([jump.mesh_frequency * drive.resonance_rpm for jump in jumps])
-    variables["jump_speed"] = ("jump", at, attributes("jump_speed"))
-    for name, field in {"run": "run", "kind": "kind", "from": "before", "to": "after"}.items():
-        words = np.array([getattr(jump, field) for jump in jumps], dtype=str)
-        variables[f"jump_{name}"] = ("jump", words, attributes(f"jump_{name}"))
-    return xr.Dataset(
-        variables,
-        {"run": list(RUNS), "speed": ("speed", speeds, attributes("speed"))},
-        {"drive": repr(drive), "mean_force_n": drive.mean_force_n},
-    )
+    coordinates = {"run": list(shown), "speed": ("speed", speeds, attributes("speed"))}
+    return xr.Dataset(variables, coordinates, {"run_phase_rad": phases[chosen]})
+
+
+def _over_phases(seen: list[list[Found]]) -> dict[str, list[Any]]:
+    """The band over the phases of the largest factor, and the worst of contact, by speed."""
+    columns = list(zip(*seen, strict=True))
+    factors = [[each.largest("dynamic_factor") for each in column] for column in columns]
+    return {
+        "factor_low": [-largest(-each for each in row) for row in factors],
+        "factor_high": [largest(row) for row in factors],
+        **{
+            f"{name}_high": [largest(each.largest(name) for each in column) for column in columns]
+            for name in ("time_apart", "impact_velocity")
+        },
+        "loss": [max((each.loss for each in column), key=(KEPT, *LOSSES).index) for column in columns],
+    }
+
+
+def _jump_columns(speeds: NDArray[np.float64], jumps: list[Jump], resonance_rpm: float) -> dict[str, Any]:
+    """Of each run, at the speed that it jumped on its way to: the speed of the jump, its kind, and both motions."""
+    runs = ("up", "down", "worst")
+    columns: dict[str, Any] = {
+        name: [[blank] * len(speeds) for _ in runs]
+        for name, blank in {"jump_speed": np.nan, "jump_kind": "", "jump_from": "", "jump_to": ""}.items()
+    }
+    for jump in jumps:
+        at = jump.mesh_frequency * resonance_rpm
+        place = int(np.clip(np.searchsorted(speeds, at), 1, len(speeds) - 1)) - (jump.run == "down")
+        for column, value in zip(columns.values(), (at, jump.kind, jump.before, jump.after), strict=True):
+            column[runs.index(jump.run)][place] = value
+    return columns

@@ -13,6 +13,8 @@ from gearpair.design.charts import carried_runs, check_speeds
 from gearpair.drive import GearDrive
 from gearpair.motion.measures import impact_measures
 from gearpair.motion.settling import Status
+from gearpair.motion.steady import SteadyState
+from gearpair.motion.trajectories import trajectory
 from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
 
@@ -137,8 +139,8 @@ def idle_rattle(
     ...     pinion_base_radius_mm=47.9, gear_base_radius_mm=47.9, pinion_torque_nm=120.0, backlash_um=100.0,
     ...     transmission_error_um=10.0, mean_stiffness_n_per_um=350.0, damping_n_s_per_m=500.0)
     >>> found = idle_rattle(drive, [200.0, 800.0], order=2.0, pinion_swing_deg=0.3, drag_torque_nm=0.2)
-    >>> found.rattle_ratio.round(2).tolist(), (found.impact_rate > 0.0).tolist()
-    ([0.09, 1.47], [False, True])
+    >>> found.rattle_ratio.round(2).tolist(), (found.impact_power * 1e3).round(2).tolist()  # milliwatts
+    ([0.09, 1.47], [0.0, 2.78])
     """
     speeds = check_speeds(speeds_rpm)
     drag_torque_nm = check_number("drag_torque_nm", drag_torque_nm, above=0.0)
@@ -154,14 +156,16 @@ def idle_rattle(
         unit = drive.half_backlash_m * rate
         speed = max(found.drive_velocity, found.coast_velocity) * unit
         count = (found.drive_impacts + found.coast_impacts) * per_second
-        energy = sum(
-            impacts * velocity**2
-            for impacts, velocity in (
-                (found.drive_impacts, found.drive_velocity_mean),
-                (found.coast_impacts, found.coast_velocity_mean),
-            )
-            if impacts
-        )
-        columns[:, i] = count, speed * 1e3, 0.5 * mass * unit**2 * energy * per_second, found.flight_share
+        power = 0.5 * mass * unit**2 * _squares(state) * per_second
+        columns[:, i] = count, speed * 1e3, power, found.flight_share
     ratio = np.array([osc.error_amplitude * osc.mesh_frequency**2 / osc.mean_force for osc in oscillators])
     return IdleRattle(speeds, ratio, *columns)
+
+
+def _squares(state: SteadyState) -> float:
+    """The sum of the squares of the approach velocities of a periodic motion's impacts, per period; else nan."""
+    if state.period is None:
+        return np.nan
+    x, v = state.points[0].tolist()
+    impacts = trajectory(state.oscillator, x, v, state.period, samples_per_period=1).impacts
+    return float(np.sum(impacts.velocity[impacts.contact] ** 2)) / state.period

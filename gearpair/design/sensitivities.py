@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import fields
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_number, checked
-from gearpair.design.charts import carried_runs, check_speeds, oscillators_at
+from gearpair.design.charts import at_phases, carried_runs, check_speeds, oscillators_at, worst_of
 from gearpair.design.loads import measure_motion
 from gearpair.drive import GearDrive
 from gearpair.quantities import attributes
@@ -37,6 +37,7 @@ def sensitivity(
     speeds_rpm: ArrayLike,
     ranges: Mapping[str, tuple[float, float]] | None = None,
     *,
+    n_phases: int = 8,
     n_transient: int | None = None,
     progress: bool = False,
 ) -> xr.Dataset:
@@ -52,7 +53,7 @@ def sensitivity(
         harmonics go with it), ``damping_ratio``, or any size of the pair but the numbers of teeth, such as
         ``addendum``, which changes the contact ratio. Not given: half and twice each of the first four, and where
         the drive has a `mesh` the addendum five per cent less and more.
-    n_transient, progress
+    n_phases, n_transient, progress
         As in `speed_chart`.
 
     Returns
@@ -60,7 +61,9 @@ def sensitivity(
     xarray.Dataset
         Over ``(change, end)``, the end being ``"low"`` or ``"high"``: ``value``, ``contact_ratio`` (nan without a mesh)
         and the worst over both runs of ``dynamic_factor``, ``mesh_force`` (N), ``time_apart`` and ``impact_range``
-        (rpm). The same of the drive as it is in ``base_dynamic_factor`` and so on.
+        (rpm). The same of the drive as it is in ``base_dynamic_factor`` and so on, and over ``change`` its
+        ``base_value``. Where the phase of the error is unknown, all are at the one, ``phase_rad``, at which the mesh
+        force of the drive as it is becomes largest.
 
     Notes
     -----
@@ -76,11 +79,13 @@ def sensitivity(
     """
     speeds = check_speeds(speeds_rpm)
     chosen = _default_ranges(drive) if ranges is None else dict(ranges)
-    base = {name: _value(drive, name) for name in chosen}
-    drives, values = [drive], []
+    base = [_value(drive, name) for name in chosen]
     for name, ends in chosen.items():
         if len(ends) != 2:
             raise ValueError(f"the range of {name} must be a low and a high value, got {ends!r}")
+    drive = _at_worst_phase(drive, speeds, n_phases, n_transient, progress)
+    drives, values = [drive], []
+    for name, ends in chosen.items():
         for value in ends:
             values.append(check_number(name, value))
             drives.append(drive.replace(**{name: values[-1]}))
@@ -97,14 +102,27 @@ def sensitivity(
     shape = (len(chosen), 2)
     outcome = np.array(rows[1:]).reshape(*shape, len(OUTCOMES))
     ratios = [each.mesh.contact_ratio if each.mesh else np.nan for each in drives[1:]]
-    variables = {
+    variables: dict[str, Any] = {
         name: (("change", "end"), outcome[:, :, k], attributes(worst))
         for k, (name, worst) in enumerate(OUTCOMES.items())
     } | {f"base_{name}": ((), rows[0][k]) for k, name in enumerate(OUTCOMES)}
+    variables["base_value"] = ("change", np.array(base, dtype=float), {"long_name": "as drawn"})
     variables["value"] = (("change", "end"), np.array(values).reshape(shape), {"long_name": "changed to"})
     variables["contact_ratio"] = (("change", "end"), np.array(ratios).reshape(shape), attributes("contact_ratio"))
     coordinates = {"change": list(chosen), "end": ["low", "high"]}
-    return xr.Dataset(variables, coordinates, {"drive": repr(drive), "base": base})
+    return xr.Dataset(variables, coordinates, {"drive": repr(drive), "phase_rad": drive.error_phase_rad or 0.0})
+
+
+def _at_worst_phase(
+    drive: GearDrive, speeds: NDArray[np.float64], n_phases: int, n_transient: int | None, progress: bool
+) -> GearDrive:
+    """The drive at the phase of its error with the largest mesh force of both runs; itself where the phase is known."""
+    drives = at_phases(drive, n_phases)
+    if len(drives) == 1:
+        return drives[0]
+    runs = carried_runs([oscillators_at(each, speeds) for each in drives], n_transient, progress=progress)
+    forces = [[measure_motion(drive, state)["mesh_force"] for state in (*up, *down)] for up, down in runs]
+    return drives[worst_of(forces)]
 
 
 def _default_ranges(drive: GearDrive) -> dict[str, tuple[float, float]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING
@@ -11,19 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._checks import checked
-from gearpair.motion.impacts import ImpactState
 from gearpair.table import Table
 
 if TYPE_CHECKING:
     import xarray as xr
 
-SEPARATED = (ImpactState.SINGLE_DRIVE, ImpactState.SINGLE_COAST, ImpactState.NEVER_IN_CONTACT, ImpactState.DOUBLE)
-BOTH, ALWAYS, HISTORY, RARE = (
-    "the teeth strike on both flanks",
-    "the teeth part and strike, however the speed is reached",
-    "the teeth part after one way of running there and not after another",
-    "the teeth part after a shock alone, not when run up or down",
-)
+NARROWEST = 0.05  # of a speed: between speeds at which the teeth part, what is narrower is no range to run in
 
 
 @dataclass(frozen=True)
@@ -36,11 +29,13 @@ class SpeedRange:
         The pinion's, in rpm: at a located jump where one bounds the range, midway between two speeds of the chart
         elsewhere, or an end of the chart.
     why : str
-        The reason in words.
+        How contact is lost, in words; each way that is met, by rising speed.
     motions : tuple of str
         The worst motions met.
     dynamic_factor, time_apart, impact_velocity : float
-        The largest of the range, of the worst motion; the velocity in mm/s.
+        The largest of the range, of all motions and phases; the velocity in mm/s.
+    worst_phase_rad : float, optional
+        The phase of the error with the largest forces of the range, where the phase is unknown.
     """
 
     lower: float
@@ -50,11 +45,12 @@ class SpeedRange:
     dynamic_factor: float
     time_apart: float
     impact_velocity: float
+    worst_phase_rad: float | None = None
 
 
 @checked
 def speeds_to_avoid(chart: xr.Dataset) -> tuple[SpeedRange, ...]:
-    """The ranges of a speed chart in which the teeth part.
+    """The ranges of a speed chart in which the teeth part, at any phase of an error whose phase is unknown.
 
     Parameters
     ----------
@@ -64,8 +60,8 @@ def speeds_to_avoid(chart: xr.Dataset) -> tuple[SpeedRange, ...]:
     Returns
     -------
     tuple of SpeedRange
-        By rising speed; neighbours differ in their reason. Motions that no run meets count, if one of the starts found
-        them.
+        By rising speed, one for each resonance: where speeds at which the teeth part lie less than five per cent apart,
+        what is between them counts as well. So do motions that no run meets, if one of the starts found them.
 
     Examples
     --------
@@ -76,49 +72,42 @@ def speeds_to_avoid(chart: xr.Dataset) -> tuple[SpeedRange, ...]:
     >>> speeds_to_avoid(speed_chart(drive, [1000.0, 1500.0], n_starts=2))
     ()
     """
-    speeds = chart.speed.values
-    reasons = [_reason(*states) for states in chart.impact_state.transpose("speed", "run").values.tolist()]
-    worst = chart.sel(run="worst")
-    found, first = [], 0
-    for reason, run in groupby(reasons):
+    speeds, first = chart.speed.values, 0
+    stretches: list[list[int]] = []  # first speed, and the one after the last
+    for lost, run in groupby(chart.loss.values.tolist(), key=bool):
         last = first + len(list(run))
-        if reason:
-            here = slice(first, last)
-            found.append(
-                SpeedRange(
-                    _edge(chart, speeds, first),
-                    _edge(chart, speeds, last),
-                    reason,
-                    tuple(dict.fromkeys(worst.motion.values[here].tolist())),
-                    *(
-                        float(np.nanmax(worst[name].values[here]))
-                        for name in ("dynamic_factor", "time_apart", "impact_velocity")
-                    ),
-                )
-            )
+        if lost and stretches and speeds[first] - speeds[stretches[-1][1] - 1] < NARROWEST * speeds[first]:
+            stretches[-1][1] = last
+        elif lost:
+            stretches.append([first, last])
         first = last
-    return tuple(found)
+    return tuple(_range(chart, first, last) for first, last in stretches)
 
 
-def _reason(up: str, down: str, worst: str) -> str:
-    """Why a speed is to be avoided, from the impact states of both runs and of the worst motion; empty if it is not."""
-    if ImpactState.DOUBLE in (up, down, worst):
-        return BOTH
-    parted = [state in SEPARATED for state in (up, down, worst)]
-    if all(parted):
-        return ALWAYS
-    if any(parted[:2]):
-        return HISTORY
-    return RARE if parted[2] else ""
+def _range(chart: xr.Dataset, first: int, last: int) -> SpeedRange:
+    there = chart.isel(speed=slice(first, last))
+    top = int(np.nan_to_num(there.factor_high.values, nan=np.inf).argmax())
+    told = chart.attrs["error_phase"] == "unknown" and there.factor_high.notnull().any()
+    ways = dict.fromkeys(loss for loss in there.loss.values.tolist() if loss)
+    return SpeedRange(
+        _edge(chart, first, min),
+        _edge(chart, last, max),
+        f"the teeth {', elsewhere '.join(ways)}",
+        tuple(dict.fromkeys(there.motion.sel(run="worst").values.tolist())),
+        dynamic_factor=float(there.factor_high.max()),
+        time_apart=float(there.time_apart_high.max()),
+        impact_velocity=float(there.impact_velocity_high.max()),
+        worst_phase_rad=float(there.worst_phase[top]) if told else None,
+    )
 
 
-def _edge(chart: xr.Dataset, speeds: NDArray[np.float64], i: int) -> float:
+def _edge(chart: xr.Dataset, i: int, outermost: Callable[[NDArray[np.float64]], float]) -> float:
     """Where a range that begins at speed `i`, or ends before it, is bounded."""
+    speeds, jumps = chart.speed.values, chart.jump_speed.values
     if i == 0 or i == len(speeds):
         return float(speeds[0 if i == 0 else -1])
-    jumps = chart.jump_speed.values
     near = jumps[(jumps >= speeds[i - 1]) & (jumps <= speeds[i])]
-    return float(near[0]) if len(near) else float(0.5 * (speeds[i - 1] + speeds[i]))
+    return float(outermost(near)) if len(near) else float(0.5 * (speeds[i - 1] + speeds[i]))
 
 
 @checked
@@ -138,16 +127,24 @@ def speed_range_table(ranges: Iterable[SpeedRange]) -> Table:
     ----------------------------------------------------------------------------------
     6837–8139  the teeth part  period 1             3.8         57%                568
     """
+    ranges = list(ranges)
     rows = [
         [
             f"{run.lower:.0f}–{run.upper:.0f}",
             run.why,
             ", ".join(run.motions) if len(run.motions) < 4 else f"{len(run.motions)} kinds",
-            f"{run.dynamic_factor:.1f}",
-            f"{run.time_apart:.0%}",
-            f"{run.impact_velocity:.3g}",
+            *(_or_dash(text, value) for text, value in ((".1f", run.dynamic_factor), (".0%", run.time_apart))),
+            _or_dash(".3g", run.impact_velocity),
         ]
         for run in ranges
     ]
     columns = ["rpm", "why", "motions", "dynamic factor", "time apart", "impacts at (mm/s)"]
+    if any(run.worst_phase_rad is not None for run in ranges):
+        columns.append("worst phase")
+        for row, run in zip(rows, ranges, strict=True):
+            row.append("–" if run.worst_phase_rad is None else f"{np.degrees(run.worst_phase_rad):.0f}°")
     return Table(columns, rows or [["none", "the teeth stay in contact", *["–"] * 4]])
+
+
+def _or_dash(form: str, value: float) -> str:
+    return "–" if np.isnan(value) else format(value, form)

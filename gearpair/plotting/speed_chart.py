@@ -19,6 +19,7 @@ from gearpair.quantities import axis_label
 STATE_INK: Mapping[str, str] = {"none_drive": "#1F3A5F", "single_drive": "#D55E00", "double": "#54278F"}
 OTHER_INK = "#8C8577"
 GREY = "#9A9A9A"
+BAND = "#E9E4DA"  # over the phases
 LEAP = 0.25  # change from one speed to the next, of the largest factor, that is drawn as a jump
 LANE = 0.36  # height of a bar of a tornado, whose rows are 1 apart
 STRIP = 0.07  # height of a run's strip of impact states, in shares of the axes
@@ -37,7 +38,9 @@ def dynamic_factors(
 ) -> Axes:
     """The dynamic factor over the speed, run up and down, with jumps, impact states, and what is usually taken.
 
-    One line for each run, and strips of the impact states above it.
+    One line for each run, and strips of the impact states above it. Where the phase of the transmission error is
+    unknown, the runs are at the worst, which the legend names, and a band behind them shows the largest factor over all
+    phases.
 
     Parameters
     ----------
@@ -53,23 +56,22 @@ def dynamic_factors(
     ...     backlash_um=80.0, transmission_error_um=5.0, damping_ratio=0.08)
     >>> ax = dynamic_factors(gp.design.speed_chart(drive, [2000.0, 4000.0], n_starts=2))
     >>> [text.get_text() for text in ax.get_legend().get_texts()]
-    ['linear response', 'run up', 'run down']
+    ['linear response', 'any phase, worst 90°', 'run up', 'run down']
     """
     ax = new_axes(ax, 4.6)
     speed = chart.speed.values
     factor = chart.dynamic_factor
-    top = np.nanmax([np.nanmax(factor.values), 1.2])
+    top = np.nanmax([np.nanmax(chart.factor_high.values, initial=1.2), 1.2])
     linear = chart.linear_factor.values  # cut off where the strips begin
     linear = np.where(linear < 0.8 + (top - 0.8) * 1.12, linear, np.nan)
     ax.plot(speed, linear, color=GREY, linewidth=1.0, label="linear response", zorder=1)
     if iso is not None:
         ax.plot(iso.speed_rpm, iso.k_v, color=GREY, linestyle=(0, (5, 2)), linewidth=1.3, label="ISO 6336-1, $K_v$")
-    worst, shown = factor.sel(run="worst").values, np.zeros(len(speed), bool)
-    for run in ("up", "down"):
-        shown |= np.isclose(worst, factor.sel(run=run).values, rtol=1e-6, equal_nan=True)
-    if not shown.all():
-        looks: dict[str, Any] = {"markersize": 3, "markerfacecolor": "none", "color": OTHER_INK}
-        ax.plot(speed[~shown], worst[~shown], "o", label="worst found from other starts", **looks)
+    if chart.attrs["error_phase"] == "unknown":
+        named = f"any phase, worst {np.degrees(chart.attrs['run_phase_rad']):.0f}°"
+        ax.fill_between(speed, chart.factor_low, chart.factor_high, color=BAND, linewidth=0, label=named, zorder=0)
+    else:
+        _mark_worst(ax, chart)
     for run, style, width in (("up", "-", 1.8), ("down", (0, (2.5, 1.2)), 1.4)):
         values, states = factor.sel(run=run).values, chart.impact_state.sel(run=run).values
         ax.plot([], [], color=INK, linestyle=style, linewidth=width, label=f"run {run}")
@@ -81,6 +83,15 @@ def dynamic_factors(
     _strips(ax, chart)
     ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.02), ncols=5, handlelength=2.2, borderaxespad=0.0, fontsize=8)
     return ax
+
+
+def _mark_worst(ax: Axes, chart: xr.Dataset) -> None:
+    """Circles where a start found a worse motion than either run."""
+    runs, worst = chart.dynamic_factor.sel(run=["up", "down"]).values, chart.dynamic_factor.sel(run="worst").values
+    other = ~np.isclose(runs, worst, rtol=1e-6, equal_nan=True).any(axis=0)
+    if other.any():
+        looks: dict[str, Any] = {"markersize": 3, "markerfacecolor": "none", "color": OTHER_INK}
+        ax.plot(chart.speed.values[other], worst[other], "o", label="worst found from other starts", **looks)
 
 
 def _by_state(ax: Axes, speed: np.ndarray, values: np.ndarray, states: np.ndarray, style: object, width: float) -> None:
@@ -100,17 +111,16 @@ def _by_state(ax: Axes, speed: np.ndarray, values: np.ndarray, states: np.ndarra
 
 def _mark_jumps(ax: Axes, chart: xr.Dataset) -> None:
     """An arrow from the motion that a run leaves to the one it goes to, with the speed beside it."""
-    speed = chart.speed.values
-    for at, run in zip(chart.jump_speed.values, chart.jump_run.values, strict=True):
-        values = chart.dynamic_factor.sel(run=str(run)).values
-        after = int(np.clip(np.searchsorted(speed, at), 1, len(speed) - 1))
-        ends = values[[after - 1, after]] if run == "up" else values[[after, after - 1]]
-        if not abs(ends[1] - ends[0]) > LEAP * np.nanmax(values):
-            continue
-        arrow: dict[str, Any] = {"arrowstyle": "-|>", "color": "#333333", "linewidth": 0.9}
-        ax.annotate("", (at, ends[1]), (at, ends[0]), arrowprops=arrow)
-        shift, ha = (4, "left") if run == "up" else (-4, "right")
-        note(ax, f"{at:.0f}", (at, ends.mean()), (shift, 0), fontsize=8, ha=ha, va="center", color="#333333")
+    for run, before, shift, ha in (("up", -1, 4, "left"), ("down", 1, -4, "right")):
+        values, jumps = (chart[name].sel(run=run).values for name in ("dynamic_factor", "jump_speed"))
+        for i in np.flatnonzero(np.isfinite(jumps)):
+            at, start, end = jumps[i], values[i + before], values[i]
+            if not abs(end - start) > LEAP * np.nanmax(values):
+                continue
+            arrow: dict[str, Any] = {"arrowstyle": "-|>", "color": "#333333", "linewidth": 0.9}
+            ax.annotate("", (at, end), (at, start), arrowprops=arrow)
+            middle = (at, 0.5 * (start + end))
+            note(ax, f"{at:.0f}", middle, (shift, 0), fontsize=8, ha=ha, va="center", color="#333333")
 
 
 def _strips(ax: Axes, chart: xr.Dataset) -> None:

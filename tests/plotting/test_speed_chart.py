@@ -38,7 +38,20 @@ def test_the_chart_draws_each_run_in_pieces_broken_where_it_jumps(chart):
     assert drawn == runs
     assert max(np.abs(np.diff(piece[1])).max(initial=0.0) for piece in pieces) < 0.3  # the jumps are twice as high
     words = [text.get_text() for text in ax.texts]
-    assert [f"{at:.0f}" for at in chart.jump_speed.values] == [word for word in words if word.isdigit()]
+    jumps = chart.jump_speed.values[np.isfinite(chart.jump_speed.values)]
+    assert {f"{at:.0f}" for at in jumps} == {word for word in words if word.isdigit()}
+
+
+def test_a_band_shows_all_phases_and_the_legend_the_worst(chart):
+    ax = plotting.dynamic_factors(chart)
+    [band] = [each for each in ax.collections if each.get_label().startswith("any phase")]
+    drawn = band.get_paths()[0].vertices
+    for speed, low, high in zip(SPEEDS, chart.factor_low.values, chart.factor_high.values, strict=True):
+        there = drawn[np.isclose(drawn[:, 0], speed), 1]
+        assert (there.min(), there.max()) == pytest.approx((low, high))
+    assert band.get_label() == f"any phase, worst {np.degrees(chart.attrs['run_phase_rad']):.0f}°"
+    known = plotting.dynamic_factors(design.speed_chart(DRIVE.at_phase(0.0), SPEEDS[:3], n_starts=0))
+    assert not any(each.get_label().startswith("any phase") for each in known.collections)
 
 
 def test_the_strips_show_the_impact_state_of_each_run(chart):

@@ -49,7 +49,7 @@ def two_rotors(drive: GearDrive, x: float, v: float, n_periods: int) -> NDArray[
 
     def relative(t: float, y: NDArray[np.float64]) -> NDArray[np.float64]:
         """X and X' in metres and seconds."""
-        angle, size = omega_h * t + drive.error_phase_rad, drive.transmission_error_um * 1e-6
+        angle, size = omega_h * t + (drive.error_phase_rad or 0.0), drive.transmission_error_um * 1e-6
         return np.array([y[:2] @ radii - size * np.sin(angle), y[2:] @ radii - size * omega_h * np.cos(angle)])
 
     def slopes(t: float, y: NDArray[np.float64], level: float) -> NDArray[np.float64]:
