@@ -6,6 +6,7 @@ from gearpair.design.idle import IdleRattle, idle_oscillator, idle_rattle
 from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import LinearResponse, linear_response
 from gearpair.design.loads import measure_motion
+from gearpair.design.passages import load_change, run_up, schedule
 from gearpair.design.sensitivities import sensitivity
 from gearpair.design.speed_ranges import SpeedRange, speed_range_table, speeds_to_avoid
 
@@ -20,7 +21,10 @@ __all__ = [
     "idle_rattle",
     "iso_dynamic_factor",
     "linear_response",
+    "load_change",
     "measure_motion",
+    "run_up",
+    "schedule",
     "sensitivity",
     "speed_chart",
     "speed_range_table",
