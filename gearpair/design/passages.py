@@ -151,8 +151,8 @@ def schedule(
     Returns
     -------
     xarray.Dataset
-        Over ``cycle``, the mesh periods: ``time`` (s), ``speed`` (rpm), ``torque`` (N m), ``mean_mesh_force`` (N), ``x_min``
-        and ``x_max`` (of X), ``mesh_force`` (N), ``dynamic_factor``, ``drive_impacts``, ``coast_impacts``,
+        Over ``cycle``, the mesh periods: ``time`` (s), ``speed`` (rpm), ``torque`` (N m), ``mean_mesh_force`` (N),
+        ``x_min`` and ``x_max`` (of X), ``mesh_force`` (N), ``dynamic_factor``, ``drive_impacts``, ``coast_impacts``,
         ``impact_velocity`` (mm/s), ``impact_state``; ``x`` and ``v`` at its start. With samples ``sample_time``,
         ``sample_dte`` (um) and ``sample_force`` (N, positive on the drive flank) over ``(cycle, sample)``.
 

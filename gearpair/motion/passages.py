@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,7 +93,7 @@ def passage(oscillators: Sequence[Oscillator], x: float, v: float, *, samples_pe
         **{name: measured[name] for name in MEASURED},
         "impact_state": np.array(IMPACT_STATES)[impact_codes(rows[:, at.LOWEST], rows[:, at.HIGHEST])],
     }
-    variables = {name: ("cycle", column, attributes(name)) for name, column in columns.items()}
+    variables: dict[str, Any] = {name: ("cycle", column, attributes(name)) for name, column in columns.items()}
     ends = {"tau": tau[-1], "x": states[-1, 0], "v": states[-1, 1]}
     variables |= {f"end_{name}": ((), end, attributes(name)) for name, end in ends.items()}
     if per_period:

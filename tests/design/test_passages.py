@@ -14,7 +14,7 @@ DRIVE = gp.GearDrive.from_pair(
 
 
 def test_mesh_periods_of_a_ramp() -> None:
-    """The phase of each mesh period's start is whole: the integral of the speed, by the trapezium of a straight line."""
+    """The phase of each mesh period's start is whole: the integral of the speed, by trapezia."""
     cycles = mesh_cycles(DRIVE, 0.4, [(0.0, 1000.0), (0.1, 4000.0), (0.25, 2500.0)], 50.0)
     times, speeds = np.array([0.0, 0.1, 0.25, 1.0]), np.array([1000.0, 4000.0, 2500.0, 2500.0])
     for i in (0, 7, 100, 200, 300, len(cycles.speed)):

@@ -1,4 +1,4 @@
-"""A passage: the same as the plain flow where nothing changes, continuous where it does, and what a smooth ramp does."""
+"""A passage: the same as the plain flow where nothing changes, continuous where it does, and near a smooth ramp."""
 
 import numpy as np
 import pytest
