@@ -1,17 +1,20 @@
 """The boundary between two motions: the saddle on it, its manifolds, and the smallest shock that crosses it."""
 
+from gearpair.boundaries.dips import CriticalDip, critical_dip
 from gearpair.boundaries.edges import EdgeState, EdgeStatus, edge_state
 from gearpair.boundaries.growing import Manifolds, manifolds
 from gearpair.boundaries.sections import at_phase, backward_map
 from gearpair.boundaries.shocks import CriticalShock, critical_shock
 
 __all__ = [
+    "CriticalDip",
     "CriticalShock",
     "EdgeState",
     "EdgeStatus",
     "Manifolds",
     "at_phase",
     "backward_map",
+    "critical_dip",
     "critical_shock",
     "edge_state",
     "manifolds",

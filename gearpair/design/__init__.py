@@ -8,6 +8,8 @@ from gearpair.design.linear import LinearResponse, linear_response
 from gearpair.design.loads import measure_motion
 from gearpair.design.passages import load_change, run_up, schedule
 from gearpair.design.sensitivities import sensitivity
+from gearpair.design.shocks import shock_margin
+from gearpair.design.sounds import Sound, sound, write_wav
 from gearpair.design.speed_ranges import SpeedRange, speed_range_table, speeds_to_avoid
 
 __all__ = [
@@ -15,6 +17,7 @@ __all__ = [
     "IsoDynamicFactor",
     "Jump",
     "LinearResponse",
+    "Sound",
     "SpeedRange",
     "find_jumps",
     "idle_oscillator",
@@ -26,7 +29,10 @@ __all__ = [
     "run_up",
     "schedule",
     "sensitivity",
+    "shock_margin",
+    "sound",
     "speed_chart",
     "speed_range_table",
     "speeds_to_avoid",
+    "write_wav",
 ]
