@@ -127,7 +127,7 @@ def critical_shock(
     check_choice("kick", kick, KICKS)
     n_phases, n_directions = check_count("n_phases", n_phases), check_count("n_directions", n_directions, at_least=2)
     largest = check_number("largest", largest, above=0.0)
-    points = _points_over_cycle(osc, state, n_phases)
+    points = points_over_cycle(osc, state, n_phases)
     phases = np.arange(len(points)) / n_phases
     sections = [at_phase(osc, k / n_phases) for k in range(n_phases * osc.mesh_periods)]
     angles = (
@@ -152,7 +152,7 @@ def critical_shock(
     return CriticalShock(osc, size, change, float(phases[best]), points[best], leads_to, phases, sizes, kicks)
 
 
-def _points_over_cycle(osc: Oscillator, state: SteadyState | PeriodicOrbit, n_phases: int) -> NDArray[np.float64]:
+def points_over_cycle(osc: Oscillator, state: SteadyState | PeriodicOrbit, n_phases: int) -> NDArray[np.float64]:
     """X and X' of a stable motion at every phase of its cycle, `n_phases` a mesh period, (n, 2); or a ValueError."""
     stable = state.stable if isinstance(state, PeriodicOrbit) else state.period is not None
     if not stable or state.period is None:

@@ -3,6 +3,7 @@
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.measures import ImpactMeasures, impact_measures
 from gearpair.motion.names import CHAOS, Motion, motions_of, periodic
+from gearpair.motion.passages import passage
 from gearpair.motion.settling import BatchOptions, SettleOptions, Status, transient_periods
 from gearpair.motion.spectra import Spectrum, spectrum
 from gearpair.motion.stability import lyapunov_exponents, multipliers_of
@@ -27,6 +28,7 @@ __all__ = [
     "lyapunov_exponents",
     "motions_of",
     "multipliers_of",
+    "passage",
     "periodic",
     "spectrum",
     "steady_state",

@@ -1,0 +1,276 @@
+"""A drive while its speed and its load change: run-up, coast-down, load change, and schedules of both."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearpair._checks import check_array, check_count, check_number, checked
+from gearpair.drive import GearDrive
+from gearpair.motion.passages import passage
+from gearpair.motion.steady import SteadyState, steady_state
+from gearpair.quantities import attributes
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Course = float | Sequence[tuple[float, float]]  # a number, or (seconds, number) in between which it runs straight
+Array = NDArray[np.float64]
+MOST_CYCLES = 10**6
+
+
+class Cycles(NamedTuple):
+    """The mesh periods of a schedule; all of shape (n,) but `time` (n + 1,)."""
+
+    time: Array  # s, the start of each and the end of the last
+    speed: Array  # rpm of the pinion, the mean over each
+    torque: Array  # N m, at the middle of each
+    acceleration: Array  # rad/s^2 of the pinion, the mean over each
+
+
+@checked
+def run_up(
+    drive: GearDrive,
+    from_rpm: float,
+    to_rpm: float,
+    seconds: float,
+    *,
+    start: SteadyState | None = None,
+    accelerates: bool = True,
+    samples_per_period: int = 0,
+) -> xr.Dataset:
+    """The drive while its speed rises, or falls, steadily: a run-up or a coast-down.
+
+    Parameters
+    ----------
+    drive : GearDrive
+    from_rpm, to_rpm : float
+        Speeds of the pinion, above 0.
+    seconds : float
+        How long it takes.
+    start, accelerates, samples_per_period
+        As in `schedule`, which this is a short way to.
+
+    Examples
+    --------
+    >>> from gearpair.teeth import SpurPair
+    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
+    ...     transmission_error_um=5.0, damping_ratio=0.08)
+    >>> run = run_up(drive, 3000.0, 9000.0, 0.2)
+    >>> run.sizes["cycle"], bool(run.dynamic_factor.max() > 1.5)
+    (680, True)
+    """
+    ends = [check_number(name, rpm, above=0.0) for name, rpm in (("from_rpm", from_rpm), ("to_rpm", to_rpm))]
+    seconds = check_number("seconds", seconds, above=0.0)
+    return schedule(
+        drive,
+        seconds,
+        speed_rpm=[(0.0, ends[0]), (seconds, ends[1])],
+        start=start,
+        accelerates=accelerates,
+        samples_per_period=samples_per_period,
+    )
+
+
+@checked
+def load_change(
+    drive: GearDrive,
+    torque_nm: Course,
+    seconds: float,
+    *,
+    start: SteadyState | None = None,
+    samples_per_period: int = 0,
+) -> xr.Dataset:
+    """The drive at its own speed while its torque changes: tip-in, tip-out, reversal.
+
+    Parameters
+    ----------
+    drive : GearDrive
+        With a speed.
+    torque_nm : sequence of (float, float)
+        Seconds and torque of the pinion, as in `schedule`: ``[(0, -20), (0.005, 120)]`` rises from the first to the
+        second in 5 ms and stays there.
+    seconds : float
+        How long the drive is followed.
+    start, samples_per_period
+        As in `schedule`, which this is a short way to.
+
+    Examples
+    --------
+    >>> from gearpair.teeth import SpurPair
+    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
+    ...     transmission_error_um=5.0, damping_ratio=0.08, pinion_speed_rpm=2000.0)
+    >>> tip_in = load_change(drive, [(0.0, -20.0), (0.005, 120.0)], 0.05)
+    >>> str(tip_in.impact_state.values[0]), str(tip_in.impact_state.values[-1])
+    ('none_coast', 'none_drive')
+    """
+    return schedule(
+        drive,
+        seconds,
+        speed_rpm=drive.mesh_frequency_rad_s * 60.0 / (2.0 * np.pi * drive.pinion_teeth),
+        torque_nm=torque_nm,
+        start=start,
+        samples_per_period=samples_per_period,
+    )
+
+
+@checked
+def schedule(
+    drive: GearDrive,
+    seconds: float,
+    *,
+    speed_rpm: Course,
+    torque_nm: Course | None = None,
+    start: SteadyState | None = None,
+    accelerates: bool = True,
+    samples_per_period: int = 0,
+) -> xr.Dataset:
+    """The drive while its speed and its torque change, mesh period by mesh period.
+
+    Parameters
+    ----------
+    drive : GearDrive
+    seconds : float
+        How long it is followed; the last mesh period is a whole one.
+    speed_rpm : float or sequence of (float, float)
+        Speed of the pinion, above 0: a number, or pairs of seconds and speed, with straight lines in between. The first
+        is at 0 s; the last value stays.
+    torque_nm : float or sequence of (float, float), optional
+        Torque of the pinion that its load balances, likewise; that of `drive` when not given.
+    start : SteadyState, optional
+        The motion it comes from, at the first speed and torque; the steady motion from rest at the static deflection
+        when not given.
+    accelerates : bool
+        Whether the mesh carries what accelerates the driven side besides its load.
+    samples_per_period : int
+        Samples of the dynamic transmission error and the mesh force to keep of each mesh period.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``cycle``, the mesh periods: ``time`` (s), ``speed`` (rpm), ``torque`` (N m), ``mean_mesh_force`` (N),
+        ``x_min`` and ``x_max`` (of X), ``mesh_force`` (N), ``dynamic_factor``, ``drive_impacts``, ``coast_impacts``,
+        ``impact_velocity`` (mm/s), ``impact_state``; ``x`` and ``v`` at its start. With samples ``sample_time``,
+        ``sample_dte`` (um) and ``sample_force`` (N, positive on the drive flank) over ``(cycle, sample)``.
+
+    Raises
+    ------
+    RuntimeError
+        Where the motion escapes to infinity or the walk is capped.
+
+    Notes
+    -----
+    A mesh period has the mean speed and the mean acceleration over it; see `passage` for what goes on from one to the
+    next. The mean force is ``m_e (r_b1 T1 / I1 + r_b2 T2 / I2)``, where the load T2 is that which the given torque
+    balances at constant speed, and T1 brings what accelerates both rotors besides; without `accelerates` it is that of
+    constant speed. The dynamic factor is over the mean force of `drive`, whatever the present torque.
+
+    Examples
+    --------
+    >>> from gearpair.teeth import SpurPair
+    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
+    ...     transmission_error_um=5.0, damping_ratio=0.08)
+    >>> ride = schedule(drive, 0.1, speed_rpm=[(0.0, 2000.0), (0.1, 3000.0)], torque_nm=[(0.0, 20.0), (0.05, 100.0)])
+    >>> ride.sizes["cycle"], round(float(ride.torque[-1]))
+    (142, 100)
+    """
+    import xarray as xr  # here, so that importing gearpair stays quick
+
+    check_count("samples_per_period", samples_per_period, at_least=0)
+    cycles = mesh_cycles(drive, seconds, speed_rpm, drive.pinion_torque_nm if torque_nm is None else torque_nm)
+    unit = drive.unit_force_n
+    mean_force = cycles.torque / (drive.pinion_base_radius_mm * 1e-3)
+    if accelerates:
+        mean_force = mean_force + inertia_force_n(drive, cycles.acceleration)
+    base = drive.at_speed(float(cycles.speed[0])).oscillator()
+    frequencies = cycles.speed / drive.resonance_rpm
+    oscillators = [
+        base.replace(mesh_frequency=frequency, mean_force=force / unit)
+        for frequency, force in zip(frequencies.tolist(), mean_force.tolist(), strict=True)
+    ]
+    state = start or steady_state(oscillators[0])
+    x, v = state.points[0].tolist()
+    run = passage(oscillators, x, v, samples_per_period=samples_per_period)
+    mm_s = drive.half_backlash_m * drive.natural_frequency_rad_s * 1e3
+    columns: dict[str, Any] = {
+        "time": cycles.time[:-1],
+        "speed": cycles.speed,
+        "torque": cycles.torque,
+        "mean_mesh_force": mean_force,
+        "mesh_force": run.largest_force.values * unit,
+        "dynamic_factor": run.largest_force.values * unit / abs(drive.mean_force_n),
+        "impact_velocity": np.maximum(run.drive_velocity, run.coast_velocity).values * mm_s,
+    }
+    variables = {name: ("cycle", column, attributes(name)) for name, column in columns.items()}
+    kept = ("x", "v", "x_min", "x_max", "drive_impacts", "coast_impacts", "impact_state")
+    result = xr.Dataset(variables, run.coords, {"drive": repr(drive)}).assign({name: run[name] for name in kept})
+    return result.assign(_samples(drive, oscillators[0], run)) if samples_per_period else result
+
+
+def _samples(drive: GearDrive, osc: Any, run: xr.Dataset) -> dict[str, Any]:
+    """What the samples of a passage are in SI units."""
+    fraction = np.arange(run.sizes["sample"]) / run.sizes["sample"]
+    x = run.sample_x.values
+    pressed = np.sign(x) * np.clip(np.abs(x) - 1.0, 0.0, None)
+    found = {
+        "sample_time": run.sample_tau.values / drive.natural_frequency_rad_s,
+        "sample_dte": (x + osc.error(fraction * osc.period)) * drive.half_backlash_m * 1e6,
+        "sample_force": pressed * osc.stiffness(fraction) * drive.unit_force_n,
+    }
+    return {name: (("cycle", "sample"), values, attributes(name)) for name, values in found.items()}
+
+
+def inertia_force_n(drive: GearDrive, acceleration: ArrayLike) -> Array:
+    """The mesh force (N) that accelerates the driven side at a pinion's acceleration (rad/s^2), ``I2 a2 / r_b2``."""
+    radius, driven = drive.pinion_base_radius_mm * 1e-3, drive.gear_base_radius_mm * 1e-3
+    return np.asarray(drive.gear_inertia_kg_m2 * np.asarray(acceleration) * radius / driven**2)
+
+
+def mesh_cycles(drive: GearDrive, seconds: float, speed_rpm: Course, torque_nm: Course) -> Cycles:
+    """The mesh periods of a schedule, from 0 s to the first that ends at `seconds` or after.
+
+    Between its points the speed runs straight, so the phase is a parabola and the time of a phase its root.
+    """
+    seconds = check_number("seconds", seconds, above=0.0)
+    times, speeds = _course("speed_rpm", speed_rpm)
+    for i, speed in enumerate(speeds.tolist()):
+        check_number("speed_rpm" if len(speeds) == 1 else f"speed_rpm[{i}]", speed, above=0.0)
+    rate = drive.pinion_teeth / 60.0  # mesh periods a second at 1 rpm
+    begun = np.concatenate([[0.0], np.cumsum(np.diff(times) * 0.5 * (speeds[1:] + speeds[:-1]) * rate)])
+    slopes = np.append(np.diff(speeds) / np.diff(times), 0.0) * rate  # after the last point the speed stays
+    at = np.searchsorted(times, seconds, side="right") - 1
+    after = seconds - times[at]
+    whole = begun[at] + after * (speeds[at] * rate + 0.5 * slopes[at] * after)
+    n = int(np.ceil(round(whole, 9)))
+    if n > MOST_CYCLES:
+        raise ValueError(f"seconds must leave at most {MOST_CYCLES} mesh periods, got {seconds}, which are {n}")
+    phase = np.arange(n + 1.0)
+    piece = np.searchsorted(begun, phase, side="right") - 1
+    first, slope = speeds[piece] * rate, slopes[piece]
+    to_go = phase - begun[piece]
+    time = times[piece] + 2.0 * to_go / (first + np.sqrt(first**2 + 2.0 * slope * to_go))
+    now = np.interp(time, times, speeds)
+    return Cycles(
+        time,
+        1.0 / (rate * np.diff(time)),
+        np.interp(0.5 * (time[1:] + time[:-1]), *_course("torque_nm", torque_nm)),
+        np.diff(now) / np.diff(time) * 2.0 * np.pi / 60.0,
+    )
+
+
+def _course(name: str, given: Course) -> tuple[Array, Array]:
+    """Times and values of a course, or a ValueError that says what is wrong with it."""
+    array = check_array(name, given)
+    if array.ndim == 0:
+        return np.array([0.0]), np.array([check_number(name, given)])
+    if array.ndim != 2 or array.shape[1] != 2 or not len(array) or not np.all(np.isfinite(array)):
+        raise ValueError(f"{name} must be a number or pairs of seconds and a number, got {given!r}")
+    times = array[:, 0]
+    if times[0] != 0.0:
+        raise ValueError(f"{name} must begin at 0 s, got {times[0]}")
+    if not np.all(np.diff(times) > 0.0):
+        raise ValueError(f"{name} must have times that rise, each above the one before, got {times.tolist()}")
+    return times, array[:, 1]

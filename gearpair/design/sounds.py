@@ -1,0 +1,176 @@
+"""The mesh force as sound: what the teeth of a drive do, at its own speed, for the ear."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+from scipy.signal import resample_poly
+
+from gearpair._checks import check_class, check_count, check_number, checked
+from gearpair._equality import equal_by_value
+from gearpair.drive import GearDrive
+from gearpair.motion.settling import Status
+from gearpair.motion.steady import SteadyState
+from gearpair.motion.trajectories import trajectory
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+RATE = 44_100  # samples a second
+OVER = 4  # as many times finer is the force sampled, before what the rate cannot hold is filtered out
+FADE = 0.06  # seconds, at both ends
+LOUD = 4.0  # mean forces: what stands for full scale
+
+
+@equal_by_value
+@dataclass(frozen=True, repr=False)
+class Sound:
+    """A mesh force as sound.
+
+    Attributes
+    ----------
+    samples : ndarray of float, shape (n,)
+        The force less its mean, over `full_scale_n`; within [-1, 1].
+    rate : int
+        Samples a second.
+    full_scale_n : float
+        The force (N) that 1 stands for. Sounds of one full scale can be compared.
+    """
+
+    samples: NDArray[np.float64]
+    rate: int
+    full_scale_n: float
+
+    def __repr__(self) -> str:
+        """One line."""
+        return f"a sound of {self.seconds:.3g} s, peak {self.peak:.3g} of {self.full_scale_n:.4g} N"
+
+    @property
+    def seconds(self) -> float:
+        """How long it is."""
+        return len(self.samples) / self.rate
+
+    @property
+    def peak(self) -> float:
+        """The largest modulus of the samples."""
+        return float(np.abs(self.samples).max())
+
+
+@checked
+def sound(
+    drive: GearDrive,
+    motion: SteadyState | xr.Dataset,
+    seconds: float | None = None,
+    *,
+    full_scale_n: float | None = None,
+    rate: int = RATE,
+) -> Sound:
+    """The mesh force of a motion or of a passage at the drive's real speed, as sound.
+
+    Parameters
+    ----------
+    drive : GearDrive
+        That the motion is scaled with.
+    motion : SteadyState or xarray.Dataset
+        A settled motion of the drive's oscillator at some speed, or what `run_up`, `load_change` or `schedule` gave
+        with samples.
+    seconds : float, optional
+        How long; 2 s of a motion, and the whole of a passage, when not given.
+    full_scale_n : float, optional
+        The force that stands for full scale: four times the drive's mean force when not given, or the largest change of
+        this force where that is more.
+    rate : int
+        Samples a second.
+
+    Returns
+    -------
+    Sound
+        Faded in and out over 60 ms each. What lies above half the rate is filtered out first.
+
+    Raises
+    ------
+    ValueError
+        Where the force does not fit into `full_scale_n`, or a passage has no samples or is too short.
+
+    Notes
+    -----
+    It is the tooth force as sound and not the noise of a gearbox: shafts, bearings and housing, which filter it, are
+    not in the model.
+
+    Examples
+    --------
+    >>> from gearpair.motion import steady_state
+    >>> from gearpair.teeth import SpurPair
+    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
+    ...     transmission_error_um=5.0, damping_ratio=0.05, pinion_speed_rpm=3000.0)
+    >>> heard = sound(drive, steady_state(drive.oscillator()), 0.5)
+    >>> len(heard.samples), heard.peak < 1.0
+    (22050, True)
+    """
+    rate = check_count("rate", rate, at_least=1000)
+    if isinstance(motion, SteadyState):
+        seconds = 2.0 if seconds is None else check_number("seconds", seconds, above=2.0 * FADE, at_most=60.0)
+        time, force = _force_of(drive, motion, seconds, rate * OVER)
+    else:
+        time, force = _force_in(motion)
+        seconds = float(time[-1]) if seconds is None else check_number("seconds", seconds, above=2.0 * FADE)
+        if seconds > time[-1] * (1.0 + 1e-9):
+            raise ValueError(f"seconds must be at most those of the passage, {time[-1]:.4g}, got {seconds}")
+    n = int(seconds * rate)
+    at = np.arange(n * OVER) / (rate * OVER)
+    fine = CubicSpline(time, force)(np.minimum(at, time[-1]))
+    fine -= fine.mean()
+    samples = resample_poly(fine, 1, OVER)[:n]
+    edge = 0.5 - 0.5 * np.cos(np.pi * np.arange(int(FADE * rate)) / int(FADE * rate))
+    samples[: len(edge)] *= edge
+    samples[-len(edge) :] *= edge[::-1]
+    peak = float(np.abs(samples).max())
+    if full_scale_n is None:
+        full_scale_n = max(LOUD * abs(drive.mean_force_n), peak) or 1.0
+    elif peak > check_number("full_scale_n", full_scale_n, above=0.0):
+        raise ValueError(
+            f"full_scale_n must be at least the largest change of the force, {peak:.4g}, got {full_scale_n}"
+        )
+    return Sound(samples / full_scale_n, rate, float(full_scale_n))
+
+
+@checked
+def write_wav(path: str | Path, heard: Sound) -> None:
+    """Write a sound as a WAV file of 16 bits.
+
+    Parameters
+    ----------
+    path : str or Path
+    heard : Sound
+    """
+    from scipy.io import wavfile
+
+    check_class("heard", heard, Sound)
+    wavfile.write(path, heard.rate, np.round(heard.samples * 32767.0).astype(np.int16))
+
+
+def _force_of(
+    drive: GearDrive, state: SteadyState, seconds: float, fine_rate: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Time (s) and mesh force (N) of a settled motion, a little longer than `seconds`."""
+    if state.status in (Status.ESCAPED, Status.CAPPED):
+        raise ValueError(f"motion must stay bounded, got one with status {str(state.status)!r}")
+    osc, second = state.oscillator, drive.natural_frequency_rad_s
+    mesh = osc.period / second
+    per_period = max(16, int(np.ceil(fine_rate * mesh)))
+    x, v = state.points[0].tolist()
+    way = trajectory(osc, x, v, int(np.ceil(seconds / mesh)) + 1, samples_per_period=per_period)
+    pressed = np.sign(way.x) * np.clip(np.abs(way.x) - 1.0, 0.0, None)
+    return way.tau / second, pressed * osc.stiffness(way.tau / osc.period % 1.0) * drive.unit_force_n
+
+
+def _force_in(run: xr.Dataset) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Time (s) and mesh force (N) of a passage."""
+    if "sample_force" not in run:
+        raise ValueError("motion must be a settled motion, or a passage that was made with samples_per_period")
+    return run.sample_time.values.ravel(), run.sample_force.values.ravel()

@@ -1,0 +1,104 @@
+"""Run-up, load change and schedules of a drive, against formulas and the steady motions between which they lead."""
+
+import numpy as np
+import pytest
+
+import gearpair as gp
+from gearpair.design import load_change, run_up, schedule
+from gearpair.design.passages import inertia_force_n, mesh_cycles
+
+PAIR = gp.SpurPair(pinion_teeth=28, gear_teeth=57, module_mm=3.0, face_width_mm=25.0)
+DRIVE = gp.GearDrive.from_pair(
+    PAIR, pinion_torque_nm=120.0, backlash_um=100.0, transmission_error_um=4.0, damping_ratio=0.05
+)
+
+
+def test_mesh_periods_of_a_ramp() -> None:
+    """The phase of each mesh period's start is whole: the integral of the speed, by trapezia."""
+    cycles = mesh_cycles(DRIVE, 0.4, [(0.0, 1000.0), (0.1, 4000.0), (0.25, 2500.0)], 50.0)
+    times, speeds = np.array([0.0, 0.1, 0.25, 1.0]), np.array([1000.0, 4000.0, 2500.0, 2500.0])
+    for i in (0, 7, 100, 200, 300, len(cycles.speed)):
+        t = cycles.time[i]
+        inside = times < t
+        knots = np.append(times[inside], t)
+        values = np.interp(knots, times, speeds)
+        turns = np.sum(np.diff(knots) * 0.5 * (values[1:] + values[:-1])) / 60.0 if len(knots) > 1 else 0.0
+        assert turns * 28 == pytest.approx(i, abs=1e-9)
+    assert cycles.time[-2] < 0.4 <= cycles.time[-1]
+    steady = cycles.time[:-1] > 0.25
+    assert cycles.speed[steady] == pytest.approx(2500.0, rel=1e-9)
+    assert cycles.acceleration[steady] == pytest.approx(0.0, abs=1e-6)
+    assert cycles.acceleration[5] == pytest.approx(30_000.0 * 2.0 * np.pi / 60.0, rel=1e-9)
+
+
+def test_a_constant_schedule_stays_with_the_steady_motion() -> None:
+    drive = DRIVE.at_speed(8000.0)
+    state = gp.steady_state(drive.oscillator())
+    run = schedule(drive, 0.05, speed_rpm=8000.0, start=state)
+    loads = gp.design.measure_motion(drive, state)
+    assert run.mesh_force.values == pytest.approx(loads["mesh_force"], rel=1e-7)
+    assert run.dynamic_factor.values == pytest.approx(loads["dynamic_factor"], rel=1e-7)
+    assert run.impact_velocity.values == pytest.approx(loads["impact_velocity"], rel=1e-6)
+    assert run.sizes["cycle"] == round(0.05 * 8000.0 / 60.0 * 28)
+
+
+def test_the_mesh_accelerates_the_driven_side() -> None:
+    """Two rotors in balance: m_e (r1 T1 / I1 + r2 T2 / I2) with the torques that Newton's law asks for."""
+    r1, r2 = DRIVE.pinion_base_radius_mm * 1e-3, DRIVE.gear_base_radius_mm * 1e-3
+    i1, i2, a1 = DRIVE.pinion_inertia_kg_m2, DRIVE.gear_inertia_kg_m2, 700.0
+    load = DRIVE.gear_torque_nm
+    drive_torque = load * r1 / r2 + (i1 + i2 * (r1 / r2) ** 2) * a1
+    force = DRIVE.equivalent_mass_kg * (r1 * drive_torque / i1 + r2 * load / i2)
+    assert DRIVE.mean_force_n + float(inertia_force_n(DRIVE, a1)) == pytest.approx(force, rel=1e-12)
+    ramp = run_up(DRIVE, 3000.0, 4000.0, 0.15)
+    a1 = 1000.0 / 0.15 * 2.0 * np.pi / 60.0
+    assert ramp.mean_mesh_force.values == pytest.approx(DRIVE.mean_force_n + float(inertia_force_n(DRIVE, a1)))
+    plain = run_up(DRIVE, 3000.0, 4000.0, 0.15, accelerates=False)
+    assert plain.mean_mesh_force.values == pytest.approx(DRIVE.mean_force_n)
+
+
+def test_a_fast_ramp_is_late() -> None:
+    """Down through the resonance: the teeth part until a lower speed, the faster the lower; up: from a higher one."""
+    lost, found = [], []
+    for seconds in (1.0, 0.2, 0.05):
+        down = run_up(DRIVE, 9500.0, 5000.0, seconds, accelerates=False)
+        lost.append(float(down.speed[down.x_min.values < 1.0][-1]))
+        up = run_up(DRIVE, 5000.0, 9500.0, seconds, accelerates=False)
+        found.append(float(up.speed[up.x_min.values < 1.0][0]))
+    assert lost[0] > lost[1] > lost[2]
+    assert found[0] < found[1] < found[2]
+    assert lost[0] - lost[2] > 100.0
+
+
+def test_a_reversal_crosses_the_backlash() -> None:
+    drive = DRIVE.at_speed(3000.0)
+    run = load_change(drive, [(0.0, -20.0), (0.005, 120.0)], 0.1, samples_per_period=64)
+    assert run.x_max.values[0] < -0.9 and run.x_min.values[-1] > 0.9
+    first = int(np.flatnonzero(run.drive_impacts.values)[0])
+    assert 0.0 < run.time.values[first] < 0.01
+    assert run.impact_velocity.values[first] > 0.0
+    assert run.torque.values[[0, -1]] == pytest.approx([-20.0, 120.0], abs=15.0)
+    pressed = run.sample_force.values
+    assert pressed.min() < 0.0 < pressed.max()
+    assert pressed.max(axis=1)[-1] == pytest.approx(float(run.mesh_force[-1]), rel=2e-2)
+    assert pressed[-5:].mean() == pytest.approx(DRIVE.mean_force_n, rel=0.02)
+
+
+def test_bad_input() -> None:
+    slow = DRIVE.at_speed(1000.0)
+    for call, sentence in (
+        (lambda: run_up(DRIVE, 0.0, 3000.0, 1.0), "from_rpm must be a finite number above 0"),
+        (lambda: run_up(DRIVE, 100.0, 3000.0, 0.0), "seconds must be a finite number above 0"),
+        (
+            lambda: schedule(DRIVE, 1.0, speed_rpm=[(0.0, 100.0), (0.5, -100.0)]),
+            r"speed_rpm\[1\] must be a finite number above 0",
+        ),
+        (lambda: schedule(DRIVE, 1.0, speed_rpm=[(0.0, 1.0), (0.0, 2.0)]), "speed_rpm must have times that rise"),
+        (lambda: schedule(DRIVE, 1.0, speed_rpm=[(0.5, 100.0)]), "speed_rpm must begin at 0 s"),
+        (lambda: schedule(DRIVE, 1.0, speed_rpm=[1.0, 2.0]), "speed_rpm must be a number or pairs"),
+        (lambda: schedule(DRIVE, 1e6, speed_rpm=1000.0), "seconds must leave at most 1000000 mesh periods"),
+        (lambda: load_change(slow, [(0.0, 1.0), (0.5, float("nan"))], 1.0), "torque_nm"),
+        (lambda: load_change(DRIVE, [(0.0, 1.0)], 1.0), "this drive has no speed"),
+    ):
+        with pytest.raises(ValueError, match=sentence):
+            call()

@@ -1,0 +1,142 @@
+"""A passage: the same as the plain flow where nothing changes, continuous where it does, and near a smooth ramp."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import gearpair as gp
+from gearpair.motion import impact_measures
+
+BASE = gp.Oscillator(mesh_frequency=0.5, error_amplitude=0.05, damping_ratio=0.05)
+
+
+def test_equal_oscillators_are_the_plain_flow() -> None:
+    osc = gp.Oscillator(harmonics=[(2, 0.05, 0.3)])
+    run = gp.passage([osc] * 40, 0.3, -0.2)
+    for cycle in (0, 1, 17, 39):
+        expected = [*map(float, gp.stroboscopic_map(osc, 0.3, -0.2, cycle))]
+        assert (float(run.x[cycle]), float(run.v[cycle])) == pytest.approx(expected, abs=1e-12)
+    assert (float(run.end_x), float(run.end_v)) == pytest.approx(
+        [*map(float, gp.stroboscopic_map(osc, 0.3, -0.2, 40))], abs=1e-12
+    )
+    motion = gp.trajectory(osc, 0.3, -0.2, 40)
+    made = motion.impacts.contact & (motion.impacts.side == 1)
+    assert float(run.drive_impacts.sum()) == made.sum()
+    assert float(run.drive_velocity.max()) == motion.impacts.velocity[made].max()
+    assert float(run.end_tau) == pytest.approx(40 * osc.period, rel=1e-14)
+
+
+def test_measures_are_those_of_the_steady_motion() -> None:
+    osc = gp.Oscillator(mesh_frequency=0.7)
+    state = gp.steady_state(osc)
+    run, measures = gp.passage([osc] * 4, *state.points[0].tolist()), impact_measures(state)
+    assert run.largest_force.values.max() == pytest.approx(max(measures.drive_force, measures.coast_force), rel=1e-9)
+    assert (run.x_min.values.min(), run.x_max.values.max()) == pytest.approx((state.x_min, state.x_max), rel=1e-9)
+    assert set(run.impact_state.values) == {str(state.impact_state)}
+
+
+def test_the_dynamic_transmission_error_and_its_rate_go_on() -> None:
+    wave = gp.StiffnessWave((0.0, 0.4), (1.2, 0.8))
+    first = BASE.replace(error_phase=0.7, harmonics=[(3, 0.02, 1.0)])
+    second = first.replace(mesh_frequency=0.9, error_amplitude=0.11, error_phase=-0.4, stiffness=wave, mean_force=0.2)
+    run = gp.passage([first, second], 1.2, 0.1)
+    x, v = gp.stroboscopic_map(first, 1.2, 0.1)
+    h = 1e-6
+    rates = [float(osc.error(h) - osc.error(-h)) / (2.0 * h) for osc in (first, second)]
+    assert float(run.x[1]) + float(second.error(0.0)) == pytest.approx(x + float(first.error(0.0)), abs=1e-14)
+    assert float(run.v[1]) + rates[1] == pytest.approx(v + rates[0], abs=1e-10)
+    assert abs(float(run.v[1]) - v) > 1e-3
+    expected = [*map(float, gp.stroboscopic_map(second, float(run.x[1]), float(run.v[1])))]
+    assert (float(run.end_x), float(run.end_v)) == pytest.approx(expected, abs=1e-13)
+
+
+def test_a_load_step_in_contact_is_the_step_of_a_linear_oscillator() -> None:
+    # k = 1, no error: X about its rest decays as exp(-zeta tau) (cos w tau + zeta / w sin w tau).
+    osc = gp.Oscillator(mean_force=0.2, error_amplitude=0.0, mesh_frequency=0.6, stiffness=gp.StiffnessWave((0,), (1,)))
+    run = gp.passage([osc] * 2 + [osc.replace(mean_force=0.3)] * 8, 1.2, 0.0, samples_per_period=50)
+    tau = run.sample_tau.values[2:] - 2 * osc.period
+    zeta = osc.damping_ratio
+    w = np.sqrt(1.0 - zeta**2)
+    expected = 1.3 - 0.1 * np.exp(-zeta * tau) * (np.cos(w * tau) + zeta / w * np.sin(w * tau))
+    assert run.sample_x.values[2:] == pytest.approx(expected, abs=1e-13)
+    assert run.x_max.values[2] == pytest.approx(1.3 + 0.1 * np.exp(-zeta * np.pi / w), abs=1e-12)
+
+
+def test_energy_of_a_passage() -> None:
+    """With one stiffness, what the force brings less what damping takes is what the motion gains, jumps counted."""
+    base = BASE.replace(stiffness=gp.StiffnessWave((0.0,), (1.0,)))
+    oscillators = [base.replace(mesh_frequency=each) for each in np.linspace(0.7, 1.0, 30)]
+    run = gp.passage(oscillators, *gp.steady_state(oscillators[0]).points[0].tolist(), samples_per_period=4000)
+
+    def energy(x: float, v: float) -> float:
+        return 0.5 * v * v + 0.5 * max(abs(x) - 1.0, 0.0) ** 2
+
+    gained = 0.0
+    for i, osc in enumerate(oscillators):
+        tau = np.linspace(0.0, osc.period, 4001)
+        motion = gp.trajectory(osc, float(run.x[i]), float(run.v[i]), 1, samples_per_period=4000)
+        assert motion.x[:-1] == pytest.approx(run.sample_x.values[i], abs=1e-12)
+        power = osc.force(tau) * motion.v - 2.0 * osc.damping_ratio * motion.v**2
+        gained += np.trapezoid(power, tau)
+        if i:
+            before = gp.stroboscopic_map(oscillators[i - 1], float(run.x[i - 1]), float(run.v[i - 1]))
+            gained += energy(float(run.x[i]), float(run.v[i])) - energy(*map(float, before))
+    start, end = energy(float(run.x[0]), float(run.v[0])), energy(float(run.end_x), float(run.end_v))
+    assert end - start == pytest.approx(gained, abs=2e-7)
+    assert float(run.drive_impacts.sum()) > 5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("first", "last"), [(0.55, 1.05), (1.05, 0.55)])
+def test_steps_of_the_frequency_are_a_smooth_ramp(first: float, last: float) -> None:
+    """Over the resonance: the frequencies where contact is first and last lost, and the largest force."""
+    base = BASE.replace(error_amplitude=0.04)
+    span = 60 * 2.0 * np.pi / 0.8
+    rate = (last - first) / span  # Omega = first + rate tau, so a mesh period ends at a root of a parabola
+    turns = 2.0 * np.pi * np.arange(int((first + last) / 2.0 * span / (2.0 * np.pi)) + 1)
+    ends = 2.0 * turns / (first + np.sqrt(first**2 + 2.0 * rate * turns))
+    steps = [base.replace(mesh_frequency=2.0 * np.pi / width) for width in np.diff(ends)]
+    x, v = gp.steady_state(base.replace(mesh_frequency=first)).points[0].tolist()
+    run = gp.passage(steps, x, v, samples_per_period=800)
+
+    def right(tau: float, state: np.ndarray) -> list[float]:
+        omega, theta = first + rate * tau, first * tau + 0.5 * rate * tau**2
+        stiffness = float(base.stiffness((theta / (2.0 * np.pi)) % 1.0))
+        pressed = np.sign(state[0]) * max(abs(state[0]) - 1.0, 0.0)
+        error = base.error_amplitude * (omega**2 * np.sin(theta) - rate * np.cos(theta))  # -e''
+        return [state[1], base.mean_force + error - 2.0 * base.damping_ratio * state[1] - stiffness * pressed]
+
+    smooth = [np.array([x, v])]
+    sampled = []
+    for begin, end in zip(ends[:-1], ends[1:], strict=True):
+        tau = np.linspace(begin, end, 801)
+        found = solve_ivp(
+            right, (begin, end), smooth[-1], t_eval=tau, rtol=1e-8, atol=1e-10, max_step=(end - begin) / 60
+        )
+        smooth.append(found.y[:, -1])
+        sampled.append(found.y[0, :-1])
+    both = []
+    for x_of, tau in ((np.array(sampled), None), (run.sample_x.values, run.sample_tau.values)):
+        at = (ends[:-1, None] + np.diff(ends)[:, None] * np.arange(800) / 800 if tau is None else tau).ravel()
+        apart = np.flatnonzero(x_of.ravel() < 1.0)
+        both.append([first + rate * at[apart[0]], first + rate * at[apart[-1]]])
+    # One ten-thousandth of the frequency is 0.8 rpm of the chapter's pair in 8000, over a ramp of 60 mesh periods.
+    assert both[1] == pytest.approx(both[0], rel=4e-4)
+    assert both[0][0] != pytest.approx(both[0][1], rel=0.05)
+
+
+def test_bad_input() -> None:
+    with pytest.raises(ValueError, match="oscillators must hold one oscillator at least, got none"):
+        gp.passage([], 0.0, 0.0)
+    with pytest.raises(TypeError, match=r"oscillators\[1\] must be an Oscillator"):
+        gp.passage([BASE, 3], 0.0, 0.0)
+    with pytest.raises(ValueError, match="samples_per_period must be"):
+        gp.passage([BASE], 0.0, 0.0, samples_per_period=-1)
+
+
+def test_an_escape_is_told_with_its_cycle() -> None:
+    unstable = gp.Oscillator(
+        mesh_frequency=2.0, damping_ratio=0.0, stiffness=gp.StiffnessWave((0.0, 0.5), (1.8, 0.2)), mean_force=0.1
+    )
+    with pytest.raises(RuntimeError, match="escapes to infinity within"):
+        gp.passage([unstable] * 500, 50.0, 0.0)
