@@ -76,10 +76,8 @@ class GearDrive:
         phase in radians and waves a revolution (one, if left out), as `gearpair.oscillator.ShaftOrder`.
     profile_harmonics : sequence of (order, amplitude, phase)
         What the shape of the drive flanks adds to it, orders from 1; set by `from_pair` for a relief.
-    relief : TipRelief, optional
-        What is taken off the tips, of which stiffness and `profile_harmonics` are made; set by `from_pair`.
-    mesh, pinion_blank, gear_blank : MeshStiffness, GearBlank and GearBlank, optional
-        What stiffness and inertias come from; set by `from_pair`.
+    relief, mesh, pinion_blank, gear_blank : TipRelief, MeshStiffness, GearBlank and GearBlank, optional
+        What stiffness, `profile_harmonics` and inertias come from; set by `from_pair`.
 
     Notes
     -----

@@ -181,7 +181,7 @@ def test_a_drive_there_and_back_with_harmonics():
         here, there = getattr(drive, field.name), getattr(again, field.name)
         if field.name == "error_harmonics":
             assert np.allclose(here, there, rtol=1e-12, atol=0.0)
-        elif field.name in ("stiffness", "mesh", "pinion_blank", "gear_blank"):
+        elif field.name in ("stiffness", "relief", "mesh", "pinion_blank", "gear_blank"):
             assert here is there
         else:
             assert there == pytest.approx(here, rel=1e-12)
