@@ -39,6 +39,7 @@ def leaving(damping_ratio, n):
     return int(settled.sum())
 
 
+@pytest.mark.slow
 def test_the_value_does_not_depend_on_the_chords_the_length_or_the_range(found):
     assert found.status == "located" and not found.crosses_above and found.error < 1e-11
     longer = homoclinic_tangency(SADDLE, "damping_ratio", 0.0108, 0.0119, length=20.0)
@@ -47,6 +48,7 @@ def test_the_value_does_not_depend_on_the_chords_the_length_or_the_range(found):
     assert found.value == pytest.approx(0.01110903505, abs=1e-10)
 
 
+@pytest.mark.slow
 def test_below_it_the_unstable_branch_reaches_the_other_motion_and_above_it_not(found):
     """As much of it as a parabola has beyond its tangent: the square root of the distance from the value."""
     assert leaving(found.value + 1e-6, 20_000) == 0
@@ -89,6 +91,7 @@ def test_chaos_is_a_transient_below_it_and_lasts_above(found):
     assert lives[1][1] > 3.0 * lives[0][1]
 
 
+@pytest.mark.slow
 def test_without_a_solution_the_bracket_is_told(monkeypatch):
     monkeypatch.setattr(tangencies, "STEPS", 0)
     found = homoclinic_tangency(SADDLE, *RANGE, length=10.0, spacing=0.05)
