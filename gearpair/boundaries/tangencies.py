@@ -200,14 +200,14 @@ class SaddleLine:
         rows = slice(first, last + 1)
         order = np.argsort(branch.values[rows])
         self._values, self._points = branch.values[rows][order], branch.points[rows][order]
-        if self._values[0] > lower or self._values[-1] < upper:
+        if self._values[0] > lower + SAME * self._range or self._values[-1] < upper - SAME * self._range:
             raise ValueError(
                 f"the saddle must reach from lower to upper, got {lower} and {upper}: it was followed from "
                 f"{parameter} = {self._values[0]:.8g} to {self._values[-1]:.8g}"
             )
 
     def saddle(self, value: float) -> PeriodicOrbit:
-        """The saddle at a value of the parameter, its points in the order of those continued."""
+        """The saddle at a value of the parameter."""
         osc = self._osc.replace(**{self._parameter: value})
         x, v = (float(np.interp(value, self._values, self._points[:, 0, i])) for i in range(2))
         orbit = periodic_orbit(osc, x, v, self._period)
