@@ -147,11 +147,13 @@ def test_a_torque_turned_round_changes_nothing(chart):
     assert np.array_equal(back.loss, chart.loss)
 
 
-@pytest.mark.slow
 def test_one_row_for_a_resonance():
-    """A drive so lively that contact is kept at single speeds in between."""
-    drive = DRIVE.replace(pinion_torque_nm=40.0, damping_ratio=0.02)
-    over = np.linspace(0.15, 1.35, 161) * drive.resonance_rpm
-    found = speeds_to_avoid(speed_chart(drive, over, n_starts=0, n_phases=2, locate_jumps=False))
-    assert 1 <= len(found) <= 8
-    assert all(low.upper < 0.96 * high.lower for low, high in zip(found[:-1], found[1:], strict=True))
+    """A single speed at which contact is kept parts no range; eight do."""
+    over = np.linspace(1.0, 1.2, 21) * DRIVE.resonance_rpm
+    told = speed_chart(DRIVE, over, n_phases=1, **RUNS_ALONE)
+    parted = np.isin(np.arange(21), [2, 3, 4, 5, 6, 8, 9, 18, 19])
+    loss = np.where(parted, "part after a shock alone, not when run up or down", "")
+    found = speeds_to_avoid(told.assign(loss=("speed", loss)))
+    middles = 0.5 * (over[1:] + over[:-1])
+    assert [(each.lower, each.upper) for each in found] == [(middles[1], middles[9]), (middles[17], middles[19])]
+    assert {each.why for each in found} == {"the teeth part after a shock alone, not when run up or down"}
