@@ -10,6 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import gearpair as gp
+from gearpair._flow.capture import COLUMNS, surround_rows
 from gearpair.boundaries import at_phase, backward_map
 from gearpair.ensembles.datasets import check_origin
 from gearpair.methods import integrated_trajectory, runge_kutta_section
@@ -147,6 +148,33 @@ def test_a_neighbourhood_is_mapped_into_itself(osc, x, v):
         rim = edge(row, 720)
         image = np.stack(gp.stroboscopic_map(osc, rim[:, 0], rim[:, 1], len(rows)), axis=1)
         assert size(row, image).max() < 1.0
+
+
+@pytest.mark.slow
+def test_neighbourhoods_of_random_oscillators_are_mapped_into_the_next():
+    """Many with a boundary of the play through them: there X' and X' + 2 zeta X go apart."""
+    rng = np.random.default_rng(3)
+    across = 0
+    for _ in range(400):
+        osc = gp.Oscillator(
+            mesh_frequency=rng.uniform(0.5, 2.0),
+            damping_ratio=rng.uniform(0.01, 0.5),
+            flight_damping=float(rng.choice([0.0, 0.2, 1.0, 3.0])),
+            mean_force=rng.uniform(0.02, 0.4),
+            error_amplitude=rng.uniform(0.05, 0.4),
+        )
+        osc = at_phase(osc, float(rng.uniform(0.0, 0.999)))
+        state = gp.steady_state(osc, n_watch=0, n_exponent=20)
+        if state.period is None:
+            continue
+        rows = np.zeros((state.period, COLUMNS))
+        n = surround_rows(osc.cells, state.points[:1].copy(), np.array([state.period]), rows)
+        for row, following in zip(rows[:n], np.roll(rows[:n], -1, axis=0), strict=True):
+            rim = edge(row, 360)
+            image = np.stack(gp.stroboscopic_map(osc, rim[:, 0], rim[:, 1]), axis=1)
+            assert size(following, image).max() < 1.0
+            across += np.unique(np.abs(rim[:, 0]) > 1.0).size > 1
+    assert across > 30
 
 
 def test_backward_undoes_forward():
