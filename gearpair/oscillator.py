@@ -183,7 +183,7 @@ class Oscillator:
         >>> Oscillator(shaft_orders=[(20, 0.3)]).error_lines
         ((1, 0.2, 0.0), (0.05, 0.3, 0.0))
         """
-        return (*self.all_harmonics, *self._shaft_lines)
+        return (*((n, amplitude, phase) for n, amplitude, phase in self.all_harmonics), *self._shaft_lines)
 
     @property
     def _shaft_lines(self) -> tuple[tuple[float, float, float], ...]:
