@@ -81,6 +81,11 @@ def check_array(
     return found
 
 
+def plain(values: NDArray[np.float64]) -> Any:
+    """An array as it is, but for one of no dimension, which becomes a float: what comes of a number is a number."""
+    return float(values) if np.ndim(values) == 0 else values
+
+
 def check_reach(name: str, reach: Any) -> tuple[float, float]:
     """Return two finite numbers in rising order, or raise a ValueError."""
     try:

@@ -11,9 +11,9 @@ from functools import cached_property
 from typing import Any, NamedTuple, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from gearpair._checks import check_array, check_class, check_count, check_fields, check_number, checked, shown
+from gearpair._checks import check_array, check_class, check_count, check_fields, check_number, checked, plain, shown
 from gearpair._flow.cells import Cells, Coefficients, build_cells
 from gearpair.quantities import ROWS, Part, part_of
 from gearpair.stiffness import Rectangle, StiffnessWave
@@ -233,21 +233,24 @@ class Oscillator:
             "levels[i], edges[i], harmonics[order].amplitude and harmonics[order].phase"
         )
 
-    def force(self, tau: ArrayLike) -> NDArray[np.float64]:
-        """The right-hand side ``F_m + F_ah Omega^2 sin(Omega tau + phi)``, with harmonics, at `tau` (any shape)."""
+    def force(self, tau: ArrayLike) -> Any:
+        """The right-hand side ``F_m + F_ah Omega^2 sin(Omega tau + phi)``, with harmonics, at `tau` (any shape).
+
+        Of a number a float, of an array an array; so is `error`.
+        """
         angle = self.mesh_frequency * check_array("tau", tau)
         total = self.mean_force + np.zeros_like(angle)
         for order, amplitude, phase in self.all_harmonics:
             total = total + amplitude * (order * self.mesh_frequency) ** 2 * np.sin(order * angle + phase)
-        return total
+        return plain(total)
 
-    def error(self, tau: ArrayLike) -> NDArray[np.float64]:
+    def error(self, tau: ArrayLike) -> Any:
         """The transmission error over half the backlash, ``F_ah sin(Omega tau + phi)`` with harmonics, at `tau`."""
         angle = self.mesh_frequency * check_array("tau", tau)
         total = np.zeros_like(angle)
         for order, amplitude, phase in self.all_harmonics:
             total = total + amplitude * np.sin(order * angle + phase)
-        return total
+        return plain(total)
 
     @cached_property
     def coefficients(self) -> Coefficients:

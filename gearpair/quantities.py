@@ -43,8 +43,16 @@ class Quantity(NamedTuple):
     @property
     def label(self) -> str:
         """The words along an axis with the symbol in TeX, and the unit."""
+        return self._in_tex(self.axis or self.words)
+
+    @property
+    def title(self) -> str:
+        """The long name with the symbol in TeX, and the unit."""
+        return self._in_tex(self.words)
+
+    def _in_tex(self, words: str) -> str:
         unit = "" if self.unit == "1" else f" ({self.unit.replace('um', 'µm')})"
-        return (self.axis or self.words).format(f"${self.in_tex}$") + unit
+        return words.format(f"${self.in_tex}$") + unit
 
 
 ROWS = (
@@ -79,6 +87,7 @@ ROWS = (
     Quantity(
         "exponent", "largest Lyapunov exponent per unit tau", "lambda_1", r"\lambda_1", axis="largest exponent {}"
     ),
+    Quantity("smallest_exponent", "smallest Lyapunov exponent per unit tau", "lambda_2", r"\lambda_2"),
     Quantity("exponent_error", "standard error of the largest exponent"),
     Quantity("section_x", "{} on the section, the smallest of the cycle; nan unless periodic", "X"),
     Quantity("section_v", "{} there", "X'"),

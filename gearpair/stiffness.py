@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Literal, Self, get_args
+from typing import Any, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_array, check_choice, check_count, check_number
+from gearpair._checks import check_array, check_choice, check_count, check_number, plain
 
 Reading = Literal["printed", "swapped"]
 READINGS = get_args(Reading)
@@ -127,10 +127,10 @@ class StiffnessWave:
         """Mean over one mesh period, relative to k_m (dimensionless)."""
         return float(self.durations @ np.asarray(self.levels))
 
-    def __call__(self, fraction: ArrayLike) -> NDArray[np.float64]:
-        """Stiffness at a time given in mesh periods (any real number, any shape)."""
+    def __call__(self, fraction: ArrayLike) -> Any:
+        """Stiffness at a time given in mesh periods: an array for an array of any shape, a float for a number."""
         phase = np.mod(check_array("fraction", fraction), 1.0)
-        return np.asarray(self.levels)[np.searchsorted(self.edges, phase, side="right") - 1]
+        return plain(np.asarray(self.levels)[np.searchsorted(self.edges, phase, side="right") - 1])
 
     def harmonics(self, n: int) -> NDArray[np.complex128]:
         """Fourier coefficients c_0 .. c_n with ``k = sum of c_m exp(2 pi i m t / T)`` over all integers m.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -55,9 +55,7 @@ def backward(osc: Oscillator) -> PeriodMap:
 
 
 @checked
-def backward_map(
-    osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def backward_map(osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1) -> tuple[Any, Any]:
     """The state `n` mesh periods before (x, v) on the section: the inverse of `gearpair.stroboscopic_map`.
 
     Parameters
@@ -70,8 +68,9 @@ def backward_map(
 
     Returns
     -------
-    x, v : ndarray of float
-        The broadcast shape. Backward in time most motions grow; one beyond all bounds comes back as +-inf.
+    x, v : ndarray of float, or float
+        The broadcast shape; of two numbers, two floats. Backward in time most motions grow; one beyond all bounds
+        comes back as +-inf.
 
     Raises
     ------

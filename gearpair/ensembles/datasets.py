@@ -69,6 +69,7 @@ def settled_columns(out: Settled) -> dict[str, NDArray[Any]]:
         "x_min": out.extremes[:, 0],
         "x_max": out.extremes[:, 1],
         "exponent": out.exponents[:, 0],
+        "smallest_exponent": out.exponents[:, 1],
         "exponent_error": out.exponents[:, 2],
         "section_x": np.where(out.status == PERIODIC, out.points[:, 0, 0], np.nan),
         "section_v": np.where(out.status == PERIODIC, out.points[:, 0, 1], np.nan),

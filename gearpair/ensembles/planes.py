@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from distributed import Client
     from zarr import Group
 
-ATTRACTOR_COLUMNS = ("status", "period", "impact_state", "x_min", "x_max", "exponent")
+ATTRACTOR_COLUMNS = ("status", "period", "impact_state", "x_min", "x_max", "exponent", "smallest_exponent")
 RATES = (
     "n_watched", "watched_periods", "escapes", "escape_rate", "escape_rate_low", "escape_rate_high", "mean_life",
     "mean_life_low", "mean_life_high",
@@ -89,14 +89,15 @@ def basins(
     xarray.Dataset
         Over ``(v, x)``: ``attractor`` (its number; -1 where the motion did not stay bounded, is a transient still, or
         was not judged), ``status``, ``period``, ``impact_state``, ``x_min``, ``x_max``, ``exponent``,
-        ``exponent_error``, ``lasted`` (mesh periods that it was followed for; of a periodic motion, until it had
-        settled); of the way ``worst_impact_state`` and ``largest_displacement`` (the attractor included),
-        ``settling_time`` and ``impacts_before`` (nan unless periodic); ``chaotic_set`` (the number of the one that it
-        was on, or -1), with ``chaos_x_min``, ``chaos_x_max`` and ``chaos_exponent``, which it then showed.
+        ``smallest_exponent``, ``exponent_error``, ``lasted`` (mesh periods that it was followed for; of a periodic
+        motion, until it had settled); of the way ``worst_impact_state`` and ``largest_displacement`` (the attractor
+        included), ``settling_time`` and ``impacts_before`` (nan unless periodic); ``chaotic_set`` (the number of the
+        one that it was on, or -1), with ``chaos_x_min``, ``chaos_x_max`` and ``chaos_exponent``, which it then showed.
 
         Over ``attractor_number``: ``attractor_status``, ``attractor_period``, ``attractor_impact_state``,
-        ``attractor_x_min``, ``attractor_x_max``, ``attractor_exponent``, ``attractor_x``, ``attractor_v`` (its section
-        point of smallest X; nan unless periodic), ``attractor_chaotic_set`` and ``attractor_share`` of the starts.
+        ``attractor_x_min``, ``attractor_x_max``, ``attractor_exponent``, ``attractor_smallest_exponent``,
+        ``attractor_x``, ``attractor_v`` (its section point of smallest X; nan unless periodic),
+        ``attractor_chaotic_set`` and ``attractor_share`` of the starts.
         Periodic attractors come first, by period and X; then chaotic sets that no motion has left; then all unsettled
         motions as one.
 

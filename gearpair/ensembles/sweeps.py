@@ -82,7 +82,8 @@ def sweep(
     -------
     xarray.Dataset
         Dimensions ``(parameter, sample)``: ``x, v`` on the section, and per value ``status``, ``period``,
-        ``impact_state``, ``x_min``, ``x_max``, ``exponent``, ``exponent_error`` and ``lasted``.
+        ``impact_state``, ``x_min``, ``x_max``, ``exponent`` (the largest), ``smallest_exponent``, ``exponent_error``
+        and ``lasted``.
 
     Examples
     --------
@@ -139,7 +140,8 @@ def parameter_map(
     -------
     xarray.Dataset
         The axes are its dimensions, in their order; variables ``status``, ``period``, ``impact_state``,
-        ``x_min``, ``x_max``, ``exponent``, ``exponent_error``, ``lasted``, and what was asked for.
+        ``x_min``, ``x_max``, ``exponent`` (the largest), ``smallest_exponent``, ``exponent_error``, ``lasted``, and
+        what was asked for.
 
     Notes
     -----

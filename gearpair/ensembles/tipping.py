@@ -56,10 +56,10 @@ def continue_attractors(
     xarray.Dataset
         Over ``(parameter, attractor)``: ``share`` (nan where the attractor was not found), ``attractor_status``,
         ``attractor_period``, ``attractor_impact_state``, ``attractor_x_min``, ``attractor_x_max``,
-        ``attractor_exponent``, and ``tips_to``: at the first value without the attractor, the number of the one that
-        its motion goes over to; -2 where it escapes; -3 where it is chaotic still, on a set that others have left;
-        -1 elsewhere. Attractors are numbered as they turn up. Over ``parameter``:
-        ``transient_share`` of the starts that are transients still, and belong to no attractor.
+        ``attractor_exponent``, ``attractor_smallest_exponent``, and ``tips_to``: at the first value without the
+        attractor, the number of the one that its motion goes over to; -2 where it escapes; -3 where it is chaotic
+        still, on a set that others have left; -1 elsewhere. Attractors are numbered as they turn up. Over
+        ``parameter``: ``transient_share`` of the starts that are transients still, and belong to no attractor.
 
     Notes
     -----
@@ -111,7 +111,7 @@ def continue_attractors(
         points = {number: out.points[table["first"][k], 0] for k, number in enumerate(given)}
         places |= {number: extremes[k] for k, number in enumerate(given)}
     shape = len(checked), len(places)
-    columns = {name: np.full(shape, np.nan) for name in ("share", "x_min", "x_max", "exponent")}
+    columns = {name: np.full(shape, np.nan) for name in ("share", "x_min", "x_max", "exponent", "smallest_exponent")}
     columns |= {name: np.full(shape, -1) for name in ("status", "impact_state", "tips_to")}
     columns["period"] = np.zeros(shape, np.int64)
     for i, number, row in entries:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count, checked
+from gearpair._checks import check_count, checked, plain
 from gearpair._cores import aside
 from gearpair._equality import equal_by_value
 from gearpair._flow.closed_form import DEGREE, REACH, TERMS, evaluate_jerk
@@ -74,9 +75,9 @@ class Segment:
     fourth: float
     crossing: float | None
 
-    def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
+    def __call__(self, t: ArrayLike) -> Any:
         """X at `t` by the series."""
-        return np.polynomial.polynomial.polyval(np.asarray(t, dtype=float), self.series)
+        return plain(np.polynomial.polynomial.polyval(np.asarray(t, dtype=float), self.series))
 
     @cached_property
     def control_points(self) -> NDArray[np.float64]:
@@ -87,12 +88,12 @@ class Segment:
         b1, b2 = b0 + third * slope[0], b3 - third * np.polynomial.polynomial.polyval(self.span, slope)
         return np.column_stack([np.arange(4) * third, [b0, b1, b2, b3]])
 
-    def cubic(self, t: ArrayLike) -> NDArray[np.float64]:
+    def cubic(self, t: ArrayLike) -> Any:
         """The cubic Hermite interpolant at `t`."""
         b0, b1, b2, b3 = self.control_points[:, 1]
         s = np.asarray(t, dtype=float) / self.span
         r = 1.0 - s
-        return b0 * r**3 + 3.0 * b1 * r**2 * s + 3.0 * b2 * r * s**2 + b3 * s**3
+        return plain(b0 * r**3 + 3.0 * b1 * r**2 * s + 3.0 * b2 * r * s**2 + b3 * s**3)
 
     @property
     def spread(self) -> float:

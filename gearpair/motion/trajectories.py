@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_array, check_count, checked
+from gearpair._checks import check_array, check_count, checked, plain
 from gearpair._cores import SHORT, aside, on_all_cores
 from gearpair._equality import equal_by_value
 from gearpair._flow.cells import Cells
@@ -123,9 +123,7 @@ def check_start(x: ArrayLike, v: ArrayLike) -> tuple[float, float]:
 
 
 @checked
-def stroboscopic_map(
-    osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def stroboscopic_map(osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1) -> tuple[Any, Any]:
     """The state `n` mesh periods after (x, v) on the section ``tau mod T = 0``.
 
     Parameters
@@ -138,8 +136,8 @@ def stroboscopic_map(
 
     Returns
     -------
-    x, v : ndarray of float
-        The broadcast shape. A start that escapes to infinity comes back as +-inf.
+    x, v : ndarray of float, or float
+        The broadcast shape; of two numbers, two floats. A start that escapes to infinity comes back as +-inf.
 
     Raises
     ------
@@ -157,6 +155,8 @@ def stroboscopic_map(
     >>> x, v = stroboscopic_map(osc, [0.0, 1.0], 0.0, n=500)
     >>> bool(abs(x[0] - x[1]) < 1e-12)
     True
+    >>> [round(value, 4) for value in stroboscopic_map(osc, 1.0, 0.0)]
+    [0.3818, -0.0874]
     """
     return mapped(partial(walked, osc.cells), x, v, n)
 
@@ -166,7 +166,7 @@ def mapped(
     x: ArrayLike,
     v: ArrayLike,
     n: int,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Any, Any]:
     """X and X' after `n` mesh periods of a `walk` such as `walked`, in the shape of the starts."""
     xs, vs = check_starts(x, v)
     starts = np.stack([xs.ravel(), vs.ravel()], axis=1)
@@ -174,7 +174,7 @@ def mapped(
     raise_if_capped(status, starts)
     gone = status == ESCAPED
     ends[gone] = np.copysign(np.inf, ends[gone])
-    return ends[:, 0].reshape(xs.shape), ends[:, 1].reshape(xs.shape)
+    return plain(ends[:, 0].reshape(xs.shape)), plain(ends[:, 1].reshape(xs.shape))
 
 
 def walked(cells: Cells, starts: NDArray[np.float64], n: int) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

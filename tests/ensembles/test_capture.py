@@ -159,7 +159,7 @@ def chaotic(low, high, exponent, status=None, lasted=None):
     }
     for name, column in (("x_min", low), ("x_max", high), ("exponent", exponent)):
         columns[name] = columns[f"chaos_{name}"] = np.array(column)
-    return columns
+    return columns | {"smallest_exponent": -0.1 - columns["exponent"]}
 
 
 MIRRORED = [-0.2, -2.1, -0.1, -2.2, -0.3], [2.1, 0.2, 2.2, 0.1, 2.0], [0.08, 0.08, 0.09, 0.08, 0.07]
@@ -173,6 +173,7 @@ def test_chaotic_sets_that_differ_are_told_apart():
     assert result.table["counts"].tolist() == [2, 3]
     assert result.table["x_min"].tolist() == [-2.2, -0.3] and result.table["x_max"].tolist() == [0.2, 2.2]
     assert result.table["exponent"] == pytest.approx([0.08, 0.08])
+    assert result.table["smallest_exponent"] == pytest.approx([-0.18, -0.18])  # of the same set, though of its mean
     apart = numbered(chaotic(*MIRRORED[:2], [0.08, 0.08, 0.38, 0.08, 0.07]), 1000, NOTHING)
     assert len(np.unique(apart.columns["attractor"])) == 3
     for low, high in (([-0.2, -2.1], [2.0, 2.0]), ([-0.2, -0.2], [2.0, 0.2])):

@@ -159,3 +159,37 @@ def test_a_large_map_watches_in_full_beside_what_left_its_chaos(monkeypatch):
     assert np.sum(brief.status.values != full.status.values) <= 3
     line = gp.parameter_map(BASELINE, {"mesh_frequency": [1.219]})
     assert line.lasted.values.tolist() == [longest]
+
+
+def test_both_exponents_are_stored_whatever_the_result(tmp_path):
+    """The smallest is what the smaller multiplier says where the motion is periodic, and -2 zeta less the largest."""
+    values = [0.75, 0.86, 1.219]  # two periods and chaos
+    diagram = gp.sweep(BASELINE, "mesh_frequency", values, seeding="restart")
+    for i, omega in enumerate(values):
+        state = gp.steady_state(BASELINE.replace(mesh_frequency=omega))
+        found = diagram.exponent.values[i], diagram.smallest_exponent.values[i]
+        assert found == pytest.approx(tuple(state.lyapunov_exponents), abs=1e-12)
+        if state.period:
+            rates = np.log(np.abs(state.multipliers)) / (state.period * state.oscillator.period)
+            assert found == pytest.approx(tuple(rates), abs=1e-9)
+    grid = gp.parameter_map(BASELINE, {"damping_ratio": [0.02, 0.05], "mesh_frequency": values})
+    plane = gp.basins(BASELINE.replace(mesh_frequency=1.219), [0.0, 1.0], [0.0, 0.5])
+    along = gp.ensembles.continue_attractors(BASELINE, "mesh_frequency", [0.7, 1.219], n=20)
+    np.testing.assert_allclose(grid.exponent + grid.smallest_exponent, [[-0.04] * 3, [-0.1] * 3], atol=1e-9)
+    for one, other in (("exponent", "smallest_exponent"), ("attractor_exponent", "attractor_smallest_exponent")):
+        np.testing.assert_allclose(plane[one] + plane[other], -0.04, atol=1e-9)
+    sums = (along.attractor_exponent + along.attractor_smallest_exponent).values
+    np.testing.assert_allclose(sums[np.isfinite(sums)], -0.04, atol=1e-9)
+    assert grid.smallest_exponent.attrs["long_name"] == "smallest Lyapunov exponent per unit tau"
+
+
+def test_a_file_from_before_the_second_exponent_is_read_as_ever(tmp_path):
+    import xarray as xr
+
+    diagram = gp.sweep(BASELINE, "mesh_frequency", [0.75, 0.86, 1.219])
+    diagram.drop_vars("smallest_exponent").to_netcdf(tmp_path / "older.nc")
+    older = xr.open_dataset(tmp_path / "older.nc")
+    assert gp.ensembles.motion_ranges(older) == gp.ensembles.motion_ranges(diagram)
+    assert gp.ensembles.representatives(BASELINE, older) == gp.ensembles.representatives(BASELINE, diagram)
+    line = gp.plotting.exponents(older).lines[1]
+    np.testing.assert_array_equal(line.get_ydata(), diagram.exponent)

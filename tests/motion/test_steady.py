@@ -145,3 +145,23 @@ def test_chaos_is_told_by_its_exponent_not_by_its_samples():
     spread = 5 * np.hypot(one.exponent_error, other.exponent_error)
     assert abs(one.lyapunov_exponents[0] - other.lyapunov_exponents[0]) < spread
     assert not np.allclose(one.points, other.points)
+
+
+def test_as_many_section_points_of_chaos_as_are_asked_for():
+    """They are successive: each is the map of the one before."""
+    osc = gp.Oscillator(mesh_frequency=1.219)
+    state = gp.steady_state(osc, samples=20_000)
+    assert state.status == "aperiodic" and state.points.shape == (20_000, 2)
+    np.testing.assert_array_equal(np.column_stack(gp.stroboscopic_map(osc, *state.points[:-1].T)), state.points[1:])
+    assert len(np.unique(state.points, axis=0)) == 20_000
+    few = gp.steady_state(osc, samples=3)
+    np.testing.assert_array_equal(few.points, state.points[:3])
+    assert few.lyapunov_exponents.tolist() == state.lyapunov_exponents.tolist()
+    assert gp.steady_state(osc, n_samples=3) == few  # as sweeps call it
+
+
+def test_of_a_periodic_motion_the_cycle_is_kept_once():
+    for samples in (1, 20_000):
+        assert gp.steady_state(gp.Oscillator(), samples=samples).points.shape == (2, 2)
+    with pytest.raises(ValueError, match="samples must be a whole number of at least 1, got 0"):
+        gp.steady_state(gp.Oscillator(), samples=0)
