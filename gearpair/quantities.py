@@ -43,8 +43,16 @@ class Quantity(NamedTuple):
     @property
     def label(self) -> str:
         """The words along an axis with the symbol in TeX, and the unit."""
+        return self._in_tex(self.axis or self.words)
+
+    @property
+    def title(self) -> str:
+        """The long name with the symbol in TeX, and the unit."""
+        return self._in_tex(self.words)
+
+    def _in_tex(self, words: str) -> str:
         unit = "" if self.unit == "1" else f" ({self.unit.replace('um', 'µm')})"
-        return (self.axis or self.words).format(f"${self.in_tex}$") + unit
+        return words.format(f"${self.in_tex}$") + unit
 
 
 ROWS = (

@@ -70,7 +70,8 @@ def backward_map(osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1) -> tup
     Returns
     -------
     x, v : ndarray of float, or float
-        The broadcast shape; of one start given as two numbers, two floats. Backward in time most motions grow; one beyond all bounds comes back as +-inf.
+        The broadcast shape; of two numbers, two floats. Backward in time most motions grow; one beyond all bounds
+        comes back as +-inf.
 
     Raises
     ------

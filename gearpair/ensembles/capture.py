@@ -225,7 +225,7 @@ def _ranked(found: Sequence[Found], sets: ChaoticSets) -> tuple[list[NDArray[np.
     both = table["exponent"] + table["smallest_exponent"]  # what the damping takes, the same for all on a set
     for name, values in (("x_min", sets.observed.x_min), ("x_max", sets.observed.x_max), ("exponent", sets.exponents)):
         table[name][chaos] = values[own]
-    table["smallest_exponent"] = both - table["exponent"]
+    table["smallest_exponent"][chaos] = (both - table["exponent"])[chaos]
     table["impact_state"] = impact_codes(table["x_min"], table["x_max"])
     ends = np.cumsum([len(f.first) for f in found])[:-1]
     # The last entry of each part serves the place -1.

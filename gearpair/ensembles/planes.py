@@ -98,13 +98,14 @@ def basins(
         Over ``(v, x)``: ``attractor`` (its number; -1 where the motion did not stay bounded, is a transient still, or
         was not judged), ``status``, ``period``, ``impact_state``, ``x_min``, ``x_max``, ``exponent``,
         ``smallest_exponent``, ``exponent_error``, ``lasted`` (mesh periods that it was followed for; of a periodic
-        motion, until it had settled); of the way ``worst_impact_state`` and ``largest_displacement`` (the attractor included),
-        ``settling_time`` and ``impacts_before`` (nan unless periodic); ``chaotic_set`` (the number of the one that it
-        was on, or -1), with ``chaos_x_min``, ``chaos_x_max`` and ``chaos_exponent``, which it then showed.
+        motion, until it had settled); of the way ``worst_impact_state`` and ``largest_displacement`` (the attractor
+        included), ``settling_time`` and ``impacts_before`` (nan unless periodic); ``chaotic_set`` (the number of the
+        one that it was on, or -1), with ``chaos_x_min``, ``chaos_x_max`` and ``chaos_exponent``, which it then showed.
 
         Over ``attractor_number``: ``attractor_status``, ``attractor_period``, ``attractor_impact_state``,
         ``attractor_x_min``, ``attractor_x_max``, ``attractor_exponent``, ``attractor_smallest_exponent``,
-        ``attractor_x``, ``attractor_v`` (its section point of smallest X; nan unless periodic), ``attractor_chaotic_set`` and ``attractor_share`` of the starts.
+        ``attractor_x``, ``attractor_v`` (its section point of smallest X; nan unless periodic),
+        ``attractor_chaotic_set`` and ``attractor_share`` of the starts.
         Periodic attractors come first, by period and X; then chaotic sets that no motion has left; then all unsettled
         motions as one.
 

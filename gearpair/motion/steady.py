@@ -125,7 +125,7 @@ def steady_state(
 
 
 def describe(osc: Oscillator, out: Settled, i: int, samples: int | None = None) -> SteadyState:
-    """Row `i` of the kernels' results in the library's words, with `samples` points of a motion that is not periodic."""
+    """Row `i` of the kernels' results in the library's words; with so many points unless periodic."""
     status = STATUSES[out.status[i]]
     period = int(out.period[i]) or None
     bounded = status not in (Status.ESCAPED, Status.CAPPED)

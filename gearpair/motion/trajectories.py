@@ -143,7 +143,7 @@ def stroboscopic_map(osc: Oscillator, x: ArrayLike, v: ArrayLike, n: int = 1) ->
     Returns
     -------
     x, v : ndarray of float, or float
-        The broadcast shape; of one start given as two numbers, two floats. A start that escapes to infinity comes back as +-inf.
+        The broadcast shape; of two numbers, two floats. A start that escapes to infinity comes back as +-inf.
 
     Raises
     ------

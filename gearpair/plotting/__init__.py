@@ -1,15 +1,18 @@
 """Pictures of results: every function takes a result and, if you like, an Axes, and returns the Axes.
 
 What they share is said here once. `ax` is what to draw on, a new figure in the book's style without it; `title` stands
-above the picture, or inside it where the legend is above; `legend` is whether the colours are named; `colour` and
-`label` are those of the curve. A result that is not described is made as the example shows: a `sweep` by
-`gearpair.sweep`, a plane by `gearpair.basins`, a grid by `gearpair.parameter_map`, survivors by
+above the picture, or inside it where the legend is above; `legend` is whether the colours are named. `look` is what
+matplotlib calls it (``color``, ``lw`` or ``linewidth``, ``alpha``, ``label``, ``cmap``, ...), for what the picture is
+of: its curve or dots, its bars, areas or image. It stands instead of the usual, for all of them where they are several;
+what is drawn beside them keeps its own. ``colour`` is ``color``. A result that is not described is made as the example
+shows: a `sweep` by `gearpair.sweep`, a plane by `gearpair.basins`, a grid by `gearpair.parameter_map`, survivors by
 `gearpair.survival`, a `chart` by `gearpair.design.speed_chart`. Under the first sentence of each stands what its Axes
 holds.
 
 Colours say the same everywhere (`MOTION_COLOURS`): one for each period, dark grey for chaos; they stay apart for
-colour-blind readers. Nothing is set at import: ``plt.style.use(STYLE)``, or ``with plt.style.context(STYLE):``, gives
-the book's look.
+colour-blind readers. On dark axes (``plt.style.use("dark_background")``) what would be lost there is lighter, and what
+is pale on paper is dim. A legend that would leave the figure gets more rows. Nothing is set at import:
+``plt.style.use(STYLE)``, or ``with plt.style.context(STYLE):``, gives the book's look.
 """
 
 from gearpair.plotting.article import (

@@ -19,12 +19,15 @@ from gearpair.article.case.search import TOLERANCES
 from gearpair.article.case.trials import Ranked, Trial
 from gearpair.article.published import StiffnessRow
 from gearpair.article.readings import Hypothesis
-from gearpair.plotting.style import BACKLASH, BOUNDARY, INK, STYLE, motion_colour, name_rows, new_axes, note
+from gearpair.plotting.paper import faint, legible, look_of
+from gearpair.plotting.style import BACKLASH, BOUNDARY, INK, book_style, colour_on, name_rows, new_axes, note
 from gearpair.quantities import QUANTITIES, axis_label
 
 
 @checked
-def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax: Axes | None = None) -> Axes:
+def score_ranking(
+    ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax: Axes | None = None, **look: Any
+) -> Axes:
     """Mean and best score of every hypothesis, in their order, and the names of those `marked`.
 
     A bar from the mean to the best score for each.
@@ -41,7 +44,8 @@ def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax
     places = np.arange(1, len(ranked) + 1)
     means, best = ([entry.mean for entry in ranked], [entry.best.total for entry in ranked])
     ax.vlines(places, means, best, color="#C9C3B8", linewidth=1.5)
-    ax.plot(places, means, "o", markersize=2.5, color=INK, label="mean over its diagrams")
+    usual: dict[str, Any] = {"linestyle": "", "marker": "o", "markersize": 2.5, "label": "mean over its diagrams"}
+    ax.plot(places, means, **look_of(Line2D, look, color=legible(ax, INK), **usual))
     ax.plot(places, best, "_", markersize=4, color=BOUNDARY, label="its best diagram")
     for name, hypothesis in marked.items():
         for place, entry in zip(places, ranked, strict=True):
@@ -54,7 +58,7 @@ def score_ranking(ranked: Sequence[Ranked], marked: Mapping[str, Hypothesis], ax
 
 
 @checked
-def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = "") -> Axes:
+def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = "", **look: Any) -> Axes:
     """Where each motion exists along a parameter, over the published ranges.
 
     A row for each published motion: an outlined box where it is published, a dot where it was reached.
@@ -71,20 +75,23 @@ def reached_motions(reached: Reached, ax: Axes | None = None, *, title: str = ""
     ax = new_axes(ax, 0.7 + 0.3 * len(motions))
     ranges = published.ranges(reached.parameter)
     for row, motion in enumerate(motions):
-        colour = motion_colour(motion)
+        colour = colour_on(ax, motion)
         for stated in ranges:
             if stated.motion == motion:
                 width = stated.upper - stated.lower
                 ax.barh(row, width, left=stated.lower, height=0.8, color=colour, alpha=0.25, linewidth=0)
         here = reached.values[reached.has(motion)]
-        ax.plot(here, np.full(len(here), row), "o", markersize=3.5, color=colour)
+        usual: dict[str, Any] = {"linestyle": "", "marker": "o", "markersize": 3.5, "color": colour}
+        ax.plot(here, np.full(len(here), row), **look_of(Line2D, look, **usual))
     name_rows(ax, motions, reached.parameter)
     ax.set(xlim=(ranges[0].lower, ranges[-1].upper), title=title)
     return ax
 
 
 @checked
-def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], ax: Axes | None = None) -> Axes:
+def coverage_by_phase(
+    frequency: Sequence[Reached], damping: Sequence[Reached], ax: Axes | None = None, **look: Any
+) -> Axes:
     """The share of both published axes that each phase between forcing and stiffness can account for.
 
     What was reached along the two parameters is for the same hypotheses in the same order.
@@ -99,9 +106,10 @@ def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], 
     ['frequency table', 'damping table']
     """
     ax = new_axes(ax, 2.4)
-    for one, name, style in ((frequency, "frequency table", "o-"), (damping, "damping table", "s--")):
+    for one, name, marker, style in ((frequency, "frequency table", "o", "-"), (damping, "damping table", "s", "--")):
         phases = [reached.hypothesis.phase for reached in one]
-        ax.plot(phases, [reached.coverage for reached in one], style, markersize=3, linewidth=1.0, label=name)
+        usual: dict[str, Any] = {"marker": marker, "linestyle": style, "markersize": 3, "linewidth": 1.0}
+        ax.plot(phases, [reached.coverage for reached in one], **look_of(Line2D, look, label=name, **usual))
     ax.axvline(0.0, color=BOUNDARY, linewidth=0.7)
     ax.set(xlabel="phase of the forcing (degrees)", ylabel="share accounted for", ylim=(0.0, 1.05))
     ax.set_xticks(range(-180, 181, 60))
@@ -110,7 +118,7 @@ def coverage_by_phase(frequency: Sequence[Reached], damping: Sequence[Reached], 
 
 
 @checked
-def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = None) -> list[Axes]:
+def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = None, **look: Any) -> list[Axes]:
     """How far each published boundary is from the drawn one, against the steps a mesh period of fixed-step diagrams.
 
     One for each published boundary, with one line of dots for each way to sweep, and the tolerance as a band. Dots on
@@ -133,13 +141,13 @@ def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = No
     ['F2', 'F4', 'F6', 'F8', 'F10', 'F11', 'D2', 'D4']
     """
     if axes is None:
-        with plt.style.context({**STYLE, "font.size": 8.0, "axes.labelsize": 8.0, "axes.titlesize": 8.5}):
+        with plt.style.context(book_style(**{"font.size": 8.0, "axes.labelsize": 8.0, "axes.titlesize": 8.5})):
             axes = list(plt.figure(figsize=(8.6, 4.2)).subplots(2, 4, sharex=True).flat)
     looks = {"restart": ("o", INK), "up": ("^", "#D55E00"), "down": ("v", "#009E73")}
     boundaries = published.FREQUENCY_BOUNDARIES + published.DAMPING_BOUNDARIES
     for ax, boundary in zip(axes, boundaries, strict=True):
         tolerance = TOLERANCES[boundary.parameter]
-        ax.axhspan(-tolerance, tolerance, color=BACKLASH, zorder=-2, linewidth=0)
+        ax.axhspan(-tolerance, tolerance, color=faint(ax, BACKLASH), zorder=-2, linewidth=0)
         ax.axhline(0.0, color=BOUNDARY, linewidth=0.7)
         rim = 17.0 * tolerance
         for seeding, (marker, colour) in looks.items():
@@ -151,7 +159,8 @@ def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = No
             ]
             steps = [n or 0 for n, distance in drawn if distance is not None]
             away = np.clip([distance for _, distance in drawn if distance is not None], -rim, rim)
-            ax.plot(steps, away, marker, markersize=3, color=colour, label=seeding)
+            usual: dict[str, Any] = {"linestyle": "", "marker": marker, "markersize": 3, "label": seeding}
+            ax.plot(steps, away, **look_of(Line2D, look, color=legible(ax, colour), **usual))
         symbol = QUANTITIES[boundary.parameter].in_tex
         ax.set(xscale="log", ylim=(-1.1 * rim, 1.1 * rim), title=f"{boundary.item}: ${symbol}$ = {boundary.value:g}")
         ax.set_xticks([20, 50, 100, 200, 400], ["20", "50", "100", "200", "400"])
@@ -166,7 +175,7 @@ def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = No
 
 @checked
 def stiffness_trends(
-    published: Sequence[StiffnessRow], computed: Mapping[str, Sequence[StiffnessRow]], axes: Sequence[Axes]
+    published: Sequence[StiffnessRow], computed: Mapping[str, Sequence[StiffnessRow]], axes: Sequence[Axes], **look: Any
 ) -> list[Axes]:
     """Contact ratio, a and b against the gear's teeth: what is published and what is computed.
 
@@ -184,14 +193,18 @@ def stiffness_trends(
     for ax, name in zip(axes, ("contact_ratio", "a", "b"), strict=True):
         for k, (label, rows) in enumerate({"the article": published, **computed}.items()):
             teeth, values = [row.teeth_wheel for row in rows], [getattr(row, name) for row in rows]
-            ax.plot(teeth, values, "o-" if k else "s--", markersize=5, color=colours[k % len(colours)], label=label)
+            usual: dict[str, Any] = {"marker": "o", "linestyle": "-"} if k else {"marker": "s", "linestyle": "--"}
+            usual |= {"markersize": 5, "color": legible(ax, colours[k % len(colours)]), "label": label}
+            ax.plot(teeth, values, **look_of(Line2D, look, **usual))
         ax.set(xlabel="teeth of the gear $z_2$", title=axis_label(name))
         ax.set_xticks([row.teeth_wheel for row in published])
     return list(axes)
 
 
 @checked
-def contact_ratio_cloud(ratios: ArrayLike, published: Sequence[StiffnessRow], ax: Axes | None = None) -> Axes:
+def contact_ratio_cloud(
+    ratios: ArrayLike, published: Sequence[StiffnessRow], ax: Axes | None = None, **look: Any
+) -> Axes:
     """Contact ratio of the first pair and its growth to the last: many tooth systems, and the article.
 
     One dot for each system and a star for the article.
@@ -213,12 +226,13 @@ def contact_ratio_cloud(ratios: ArrayLike, published: Sequence[StiffnessRow], ax
     ax = new_axes(ax, 3.2)
     values = np.asarray(ratios, dtype=float)
     first, last = published[0], published[-1]
-    looks: dict[str, Any] = {"markersize": 3, "markeredgewidth": 0, "alpha": 0.45, "rasterized": True}
-    ax.plot(values[:, 0], values[:, -1] - values[:, 0], ".", color=INK, **looks)
+    usual: dict[str, Any] = {"linestyle": "", "marker": ".", "markersize": 3, "markeredgewidth": 0, "alpha": 0.45}
+    dots = look_of(Line2D, look, color=legible(ax, INK), rasterized=True, **usual)
+    ax.plot(values[:, 0], values[:, -1] - values[:, 0], **dots)
     ax.plot(first.contact_ratio, last.contact_ratio - first.contact_ratio, "*", markersize=13, color="#D55E00")
     handles = [
         Line2D([], [], linestyle="", marker="*", markersize=11, color="#D55E00", label="the article"),
-        Line2D([], [], linestyle="", marker=".", markersize=6, color=INK, label="tooth systems that can run"),
+        Line2D([], [], linestyle="", marker=".", markersize=6, color=dots["color"], label="tooth systems that can run"),
     ]
     ax.legend(handles=handles, loc="upper right")
     ax.axhline(0.0, color=BOUNDARY, linewidth=0.6)

@@ -13,7 +13,8 @@ from gearpair._checks import checked
 from gearpair.bifurcations.branches import Branch
 from gearpair.bifurcations.curves import BifurcationCurve
 from gearpair.motion.names import periodic
-from gearpair.plotting.style import INK, motion_colour, new_axes
+from gearpair.plotting.paper import legible, look_of, paper
+from gearpair.plotting.style import INK, colour_on, new_axes
 from gearpair.quantities import axis_label
 
 MARKERS = {"fold": "^", "flip": "o", "grazing": "D"}
@@ -22,7 +23,12 @@ DASHES: dict[str, Any] = {"fold": "-", "flip": "--", "grazing": ":"}
 
 @checked
 def branches(
-    found: Iterable[Branch], ax: Axes | None = None, *, periods: Sequence[int] | None = None, markers: bool = True
+    found: Iterable[Branch],
+    ax: Axes | None = None,
+    *,
+    periods: Sequence[int] | None = None,
+    markers: bool = True,
+    **look: Any,
 ) -> Axes:
     """X on the section along branches of orbits: solid where stable, dashed where unstable, bifurcations marked.
 
@@ -52,21 +58,20 @@ def branches(
     for branch in found:
         if periods is not None and branch.period not in periods:
             continue
-        colour = motion_colour(periodic(branch.period))
+        colour = look_of(Line2D, look, color=colour_on(ax, periodic(branch.period)))["color"]
         for stable in (False, True):
             for k in range(branch.period):
                 shown = np.where(_runs(branch.stable, stable), branch.points[:, k, 0], np.nan)
                 style = {"linewidth": 1.4} if stable else {"linewidth": 0.6, "linestyle": (0, (3, 2)), "alpha": 0.8}
-                ax.plot(branch.values, shown, color=colour, **style)
+                ax.plot(branch.values, shown, **look_of(Line2D, look, color=colour, **style))
         for b in branch.bifurcations if markers else ():
             kinds.add(b.kind)
-            rim: dict[str, Any] = {"markeredgecolor": "white", "markeredgewidth": 0.5}
+            rim: dict[str, Any] = {"markeredgecolor": paper(ax), "markeredgewidth": 0.5}
             ax.plot(b.value, b.x, MARKERS[b.kind], markersize=3.6, color=colour, zorder=5, **rim)
         ax.set_xlabel(axis_label(branch.parameter))
     ax.set_ylabel(axis_label("section"))
-    add_key(
-        ax, [Line2D([], [], marker=MARKERS[k], linestyle="", color="#555555", label=k) for k in MARKERS if k in kinds]
-    )
+    grey = legible(ax, "#555555")
+    add_key(ax, [Line2D([], [], marker=MARKERS[k], linestyle="", color=grey, label=k) for k in MARKERS if k in kinds])
     return ax
 
 
@@ -75,7 +80,11 @@ def add_key(ax: Axes, handles: list[Line2D]) -> None:
     if handles:
         names = [str(handle.get_label()) for handle in handles]
         looks: dict[str, Any] = {"loc": "upper right", "framealpha": 0.9, "edgecolor": "none", "frameon": True}
-        ax.add_artist(Legend(ax, handles, names, ncols=len(handles), **looks))
+        for n in range(len(handles), 0, -1):
+            key = Legend(ax, handles, names, ncols=n, **looks)
+            if key.get_window_extent().width < ax.bbox.width:
+                break
+        ax.add_artist(key)
 
 
 def _runs(stable: np.ndarray, wanted: bool) -> np.ndarray:
@@ -89,9 +98,7 @@ def _runs(stable: np.ndarray, wanted: bool) -> np.ndarray:
 
 
 @checked
-def bifurcation_curves(
-    curves: Iterable[BifurcationCurve], ax: Axes | None = None, *, colour: str | None = None
-) -> Axes:
+def bifurcation_curves(curves: Iterable[BifurcationCurve], ax: Axes | None = None, **look: Any) -> Axes:
     """Curves of folds (solid), flips (dashed) and grazings (dotted) in the plane of two parameters.
 
     Parameters
@@ -100,8 +107,8 @@ def bifurcation_curves(
         In the same two parameters.
     ax : Axes, optional
         For example that of a `period_map`, to draw over it.
-    colour : str, optional
-        Of all curves; that of the orbit's period when not given.
+    **look
+        Of all curves; the colour is that of the orbit's period when not given.
 
     Examples
     --------
@@ -113,16 +120,17 @@ def bifurcation_curves(
     '--'
     """
     ax = new_axes(ax)
-    drawn = list(curves)
+    drawn, given = list(curves), look_of(Line2D, look)
     for curve in drawn:
-        shade = colour or motion_colour(periodic(curve.period))
-        halo = [withStroke(linewidth=2.4, foreground="white")]
-        ax.plot(*curve.values.T, color=shade, linestyle=DASHES[curve.kind], linewidth=1.1, path_effects=halo)
+        usual = {"color": colour_on(ax, periodic(curve.period)), "linestyle": DASHES[curve.kind], "linewidth": 1.1}
+        halo = [withStroke(linewidth=2.4, foreground=paper(ax))]
+        ax.plot(*curve.values.T, **{"path_effects": halo, **usual, **given})
         ax.set(xlabel=axis_label(curve.parameters[0]), ylabel=axis_label(curve.parameters[1]))
     kinds = [kind for kind in DASHES if any(kind == curve.kind for curve in drawn)]
-    handles = [Line2D([], [], color=colour or INK, linestyle=DASHES[kind], label=kind) for kind in kinds]
-    if colour is None:
+    shade = given.get("color", legible(ax, INK))
+    handles = [Line2D([], [], color=shade, linestyle=DASHES[kind], label=kind) for kind in kinds]
+    if "color" not in given:
         periods = sorted({curve.period for curve in drawn})
-        handles += [Line2D([], [], color=motion_colour(m), label=str(m)) for m in map(periodic, periods)]
+        handles += [Line2D([], [], color=colour_on(ax, m), label=str(m)) for m in map(periodic, periods)]
     add_key(ax, handles)
     return ax

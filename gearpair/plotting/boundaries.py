@@ -10,15 +10,15 @@ from matplotlib.patheffects import withStroke
 from gearpair._checks import checked
 from gearpair.boundaries.growing import Manifolds
 from gearpair.plotting.bifurcations import add_key
+from gearpair.plotting.paper import legible, look_of, paper
 from gearpair.plotting.style import MOTION_COLOURS, new_axes
 from gearpair.quantities import axis_label
 
 STABLE, UNSTABLE = "#111111", "#B2182B"  # told apart from all motions', and from each other without colours by the dash
-HALO = withStroke(linewidth=2.4, foreground="white")
 
 
 @checked
-def manifolds(found: Manifolds, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+def manifolds(found: Manifolds, ax: Axes | None = None, *, legend: bool = True, **look: Any) -> Axes:
     """The curves on which motions approach a saddle (solid) and leave it (dashed), with its section points (diamonds).
 
     Parameters
@@ -38,21 +38,24 @@ def manifolds(found: Manifolds, ax: Axes | None = None, *, legend: bool = True) 
     >>> sorted({line.get_label() for line in ax.lines})
     ['saddle', 'stable manifold', 'unstable manifold']
     """
-    over = ax is not None
+    over = ax is not None and ax.has_data()
     ax = new_axes(ax, 5.0)
     limits = ax.get_xlim(), ax.get_ylim()
     looks: dict[str, dict[str, Any]] = {
-        "stable": {"color": STABLE, "linewidth": 1.1},
-        "unstable": {"color": UNSTABLE, "linewidth": 0.9, "linestyle": (0, (5, 1.2))},
+        "stable": {"color": legible(ax, STABLE), "linewidth": 1.1},
+        "unstable": {"color": legible(ax, UNSTABLE), "linewidth": 0.9, "linestyle": (0, (5, 1.2))},
     }
     handles: list[Line2D] = []
-    for name, look in looks.items():
+    halo = [withStroke(linewidth=2.4, foreground=paper(ax))]
+    for name, own in looks.items():
         for curve in getattr(found, name):
-            (line,) = ax.plot(*curve.T, label=f"{name} manifold", path_effects=[HALO], zorder=3, **look)
+            usual = {"label": f"{name} manifold", "path_effects": halo, "zorder": 3, **own}
+            (line,) = ax.plot(*curve.T, **look_of(Line2D, look, **usual))
         handles.append(line)
     (dots,) = ax.plot(
-        *found.orbit.points.T, "D", markersize=5.0, color=STABLE, markeredgecolor="white", label="saddle", zorder=4
-    )
+        *found.orbit.points.T, "D", markersize=5.0, color=legible(ax, STABLE), markeredgecolor=paper(ax),
+        label="saddle", zorder=4,
+    )  # fmt: skip
     if over:
         ax.set(xlim=limits[0], ylim=limits[1])
     else:
@@ -63,9 +66,7 @@ def manifolds(found: Manifolds, ax: Axes | None = None, *, legend: bool = True) 
 
 
 @checked
-def chaotic_saddle(
-    result: xr.Dataset, ax: Axes | None = None, *, colour: str = MOTION_COLOURS["chaotic transient"]
-) -> Axes:
+def chaotic_saddle(result: xr.Dataset, ax: Axes | None = None, **look: Any) -> Axes:
     """The section points near a chaotic saddle, of `gearpair.ensembles.chaotic_saddle`: one line of dots.
 
     Examples
@@ -76,6 +77,8 @@ def chaotic_saddle(
     True
     """
     ax = new_axes(ax, 5.0)
-    ax.plot(result.x.values, result.v.values, ".", markersize=1.2, markeredgewidth=0.0, color=colour, rasterized=True)
+    usual: dict[str, Any] = {"linestyle": "", "marker": ".", "markersize": 1.2, "markeredgewidth": 0.0}
+    usual |= {"color": legible(ax, MOTION_COLOURS["chaotic transient"]), "rasterized": True}
+    ax.plot(result.x.values, result.v.values, **look_of(Line2D, look, **usual))
     ax.set(xlabel=axis_label("x"), ylabel=axis_label("v"))
     return ax

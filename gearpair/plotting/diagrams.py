@@ -2,10 +2,13 @@
 
 from collections.abc import Iterable, Mapping
 from itertools import groupby
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from gearpair._checks import checked
@@ -13,10 +16,13 @@ from gearpair.article.published import COMPLEX, Boundary, Range
 from gearpair.ensembles.ranges import MotionRange, motion_ranges, swept_parameter
 from gearpair.motion.names import CHAOS, Motion, motions_of
 from gearpair.motion.settling import Status
+from gearpair.plotting.paper import legible, look_of
 from gearpair.plotting.style import (
     BOUNDARY,
     INK,
+    add_legend,
     add_motion_legend,
+    colour_on,
     legend_name,
     motion_colour,
     name_rows,
@@ -40,6 +46,7 @@ def bifurcation_diagram(
     legend: bool = True,
     size: float = 1.1,
     reach: float = LARGEST_DRAWN,
+    **look: Any,
 ) -> Axes:
     """Section points of X at each value of a sweep, coloured by the motion's period.
 
@@ -74,16 +81,15 @@ def bifurcation_diagram(
         beyond = escaped | np.any(np.abs(points) > reach, axis=1)
         points[beyond] = np.nan
         where = np.repeat(values[names == name], points.shape[1])
-        many = not chosen[0].period
-        ax.plot(
-            where, points.ravel(), ".", markersize=0.6 * size if many else 1.6 * size, alpha=0.5 if many else 1.0,
-            color=motion_colour(chosen[0]), markeredgewidth=0, rasterized=True, label=name,
-        )  # fmt: skip
+        many, colour = not chosen[0].period, colour_on(ax, chosen[0])
+        usual: dict[str, Any] = {"markersize": 0.6 * size, "alpha": 0.5} if many else {"markersize": 1.6 * size}
+        usual |= {"linestyle": "", "marker": ".", "markeredgewidth": 0, "rasterized": True}
+        ax.plot(where, points.ravel(), **look_of(Line2D, look, color=colour, label=name, **usual))
         if beyond.any():
             ax.plot(
                 values[names == name][beyond], np.ones(beyond.sum()), "^", transform=ax.get_xaxis_transform(),
                 markersize=3.5, markeredgewidth=0.4, markeredgecolor="#777777", clip_on=False,
-                markerfacecolor=motion_colour(chosen[0]), label=f"{name}, not drawn",
+                markerfacecolor=colour, label=f"{name}, not drawn",
             )  # fmt: skip
     over_parameter(ax, parameter, values, axis_label("section"))
     note(ax, title, (0.0, 1.0), (6, -4), xycoords="axes fraction", va="top")
@@ -102,7 +108,7 @@ def _section_points(sweep: xr.Dataset, chosen: np.ndarray) -> np.ndarray:
 
 
 @checked
-def mark_boundaries(boundaries: Iterable[Boundary], ax: Axes) -> Axes:
+def mark_boundaries(boundaries: Iterable[Boundary], ax: Axes, **look: Any) -> Axes:
     """Dotted vertical lines where the article puts its boundaries.
 
     Parameters
@@ -122,14 +128,15 @@ def mark_boundaries(boundaries: Iterable[Boundary], ax: Axes) -> Axes:
     [0.799, 0.865]
     """
     left, right = ax.get_xlim()
+    usual: dict[str, Any] = {"color": BOUNDARY, "linewidth": 0.9, "linestyle": (0, (1, 1.6)), "zorder": -1}
     for boundary in boundaries:
         if left <= boundary.value <= right:
-            ax.axvline(boundary.value, color=BOUNDARY, linewidth=0.9, linestyle=(0, (1, 1.6)), zorder=-1)
+            ax.axvline(boundary.value, **look_of(Line2D, look, **usual))
     return ax
 
 
 @checked
-def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True, **look: Any) -> Axes:
     """Smallest and largest X along a sweep, coloured by motion, over the strip where the teeth are out of contact.
 
     One line of dots each for the smallest and the largest X of every kind of motion.
@@ -146,9 +153,10 @@ def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) 
     values, motions = sweep[parameter].values, motions_of(sweep)
     shade_backlash(ax, horizontal=True)
     for motion in sorted(set(motions)):
-        chosen, colour = motions == motion, motion_colour(motion)
+        chosen = motions == motion
+        usual: dict[str, Any] = {"linestyle": "", "marker": ".", "markersize": 2, "color": colour_on(ax, motion)}
         for extreme, label in (("x_min", str(motion)), ("x_max", None)):
-            ax.plot(values[chosen], sweep[extreme].values[chosen], ".", markersize=2, color=colour, label=label)
+            ax.plot(values[chosen], sweep[extreme].values[chosen], **look_of(Line2D, look, label=label, **usual))
     over_parameter(ax, parameter, values, r"$X_{\min}$ and $X_{\max}$")
     if legend:
         add_motion_legend(ax, motions)
@@ -156,7 +164,7 @@ def extremes(sweep: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) 
 
 
 @checked
-def exponents(sweep: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, label: str | None = None) -> Axes:
+def exponents(sweep: xr.Dataset, ax: Axes | None = None, **look: Any) -> Axes:
     """The largest Lyapunov exponent along a sweep, within two standard errors, and the line at zero.
 
     Shaded where it is positive: there the motion had not settled when the watch ended.
@@ -173,9 +181,10 @@ def exponents(sweep: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, l
     ordered = sweep.sortby(parameter)
     values, largest, error = (ordered[name].values for name in (parameter, "exponent", "exponent_error"))
     ax.axhline(0.0, color=BOUNDARY, linewidth=0.7)
-    ax.fill_between(values, largest - 2.0 * error, largest + 2.0 * error, color=colour, alpha=0.25, linewidth=0)
-    ax.plot(values, largest, color=colour, linewidth=0.9, label=label)
-    ax.fill_between(values, 0.0, largest, where=largest > 0.0, color=motion_colour(CHAOS), alpha=0.25, linewidth=0)
+    curve, band = look_of(Line2D, look, color=legible(ax, INK), linewidth=0.9), 2.0 * error
+    ax.fill_between(values, largest - band, largest + band, color=curve["color"], alpha=0.25, linewidth=0)
+    ax.plot(values, largest, **curve)
+    ax.fill_between(values, 0.0, largest, where=largest > 0.0, color=colour_on(ax, CHAOS), alpha=0.25, linewidth=0)
     over_parameter(ax, parameter, values, axis_label("exponent"))
     return ax
 
@@ -187,6 +196,7 @@ def range_strips(
     *,
     parameter: str | None = None,
     legend: bool = True,
+    **look: Any,
 ) -> Axes:
     """Ranges of motion as coloured bars, one strip for each source: what is published above what was found.
 
@@ -218,14 +228,14 @@ def range_strips(
             bars.append((row, each.lower - half, each.upper + half, each.motion))
     left, right = min(bar[1] for bar in bars), max(bar[2] for bar in bars)
     for row, low, high, motion in bars:
-        hatch = "////" if motion == COMPLEX else None
-        ax.barh(
-            row, high - low, left=low, height=0.8, color=motion_colour(motion), hatch=hatch, linewidth=0,
-            edgecolor="white", alpha=0.75 if hatch else 1.0,
-        )  # fmt: skip
+        colour, hatch = colour_on(ax, motion), "////" if motion == COMPLEX else None
+        usual: dict[str, Any] = {"hatch": hatch, "linewidth": 0, "edgecolor": "white", "alpha": 0.75 if hatch else 1.0}
+        bar = look_of(Patch, look, ("height",), height=0.8, color=colour, **usual)
+        ax.barh(row, high - low, left=low, **bar)
         room = (high - low) / (right - left) / LETTER - 1.0
         text = next((text for text in (str(motion), str(motion.period or motion)) if len(text) <= room), "")
-        ax.text(0.5 * (low + high), row, text, ha="center", va="center", fontsize=8, color="white", weight="bold")
+        ink = "white" if colour == motion_colour(motion) else "black"
+        ax.text(0.5 * (low + high), row, text, ha="center", va="center", fontsize=8, color=ink, weight="bold")
     name_rows(ax, strips, parameter or "")
     ax.tick_params(axis="y", length=0)
     ax.spines["left"].set_visible(False)
@@ -242,7 +252,11 @@ def _runs_and_half_step(sweep: xr.Dataset) -> tuple[Iterable[MotionRange], float
 
 @checked
 def range_lanes(
-    sources: Mapping[str, Iterable[MotionRange | Range]], ax: Axes | None = None, *, parameter: str | None = None
+    sources: Mapping[str, Iterable[MotionRange | Range]],
+    ax: Axes | None = None,
+    *,
+    parameter: str | None = None,
+    **look: Any,
 ) -> Axes:
     """One lane for each motion with its ranges from several sources under one another; coexistence shows as overlap.
 
@@ -265,27 +279,26 @@ def range_lanes(
     rows = [(k, each) for k, source in enumerate(sources.values()) for each in source]
     motions = sorted({each.motion for _, each in rows})
     ax = new_axes(ax, 1.0 + 0.3 * len(motions))
-    height = 0.84 / len(sources)
+    height, rim = 0.84 / len(sources), legible(ax, "black")
     for k, each in rows:
         parameter = getattr(each, "parameter", parameter)
-        pale = {"alpha": 0.35, "edgecolor": "black", "linewidth": 0.8} if k == 0 else {"linewidth": 0}
-        ax.barh(
-            motions.index(each.motion) + height * (k + 0.5) - 0.42, each.upper - each.lower, left=each.lower,
-            height=0.9 * height, color=motion_colour(each.motion), **pale,
-        )  # fmt: skip
+        usual: dict[str, Any] = {"alpha": 0.35, "edgecolor": rim, "linewidth": 0.8} if k == 0 else {"linewidth": 0}
+        usual |= {"height": 0.9 * height, "color": colour_on(ax, each.motion)}
+        lane = motions.index(each.motion) + height * (k + 0.5) - 0.42
+        ax.barh(lane, each.upper - each.lower, left=each.lower, **look_of(Patch, look, ("height",), **usual))
     name_rows(ax, motions, parameter or "")
     ax.tick_params(axis="y", length=0)
     ax.set_xlim(min(each.lower for _, each in rows), max(each.upper for _, each in rows))
     for edge in range(1, len(motions)):
         ax.axhline(edge - 0.5, color=BOUNDARY, linewidth=0.3)
-    looks = [Patch(facecolor="#BBBBBB", edgecolor="black", linewidth=0.8, alpha=0.5), Patch(facecolor="#777777")]
-    handles = looks[:1] + looks[1:] * (len(sources) - 1)
-    ax.legend(handles, list(sources), loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(sources))
+    looks = {"facecolor": "#BBBBBB", "edgecolor": rim, "linewidth": 0.8, "alpha": 0.5}, {"facecolor": "#777777"}
+    handles = [Patch(**looks[k > 0], label=name) for k, name in enumerate(sources)]
+    add_legend(ax, handles, len(sources), loc="lower right", bbox_to_anchor=(1.0, 1.0))
     return ax
 
 
 @checked
-def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = True, **look: Any) -> Axes:
     """The share of the starts that reaches each kind of motion, stacked over the parameter.
 
     One filled band, labelled with its name, for each motion.
@@ -301,8 +314,9 @@ def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
     parameter = str(shares.share.dims[0])
     values, motions = shares[parameter].values, motions_of(shares)
     bands = shares.share.values.T
-    colours = [motion_colour(motion) for motion in motions]
-    ax.stackplot(values, bands, labels=list(map(str, motions)), colors=colours, linewidth=0.4, edgecolor="white")
+    colours = [colour_on(ax, motion) for motion in motions]
+    area = look_of(PolyCollection, look, linewidth=0.4, edgecolor="white")
+    ax.stackplot(values, bands, labels=list(map(str, motions)), colors=colours, **area)
     over_parameter(ax, parameter, values, axis_label("share"), ylim=(0, 1))
     if legend:
         add_motion_legend(ax, motions)
@@ -310,7 +324,7 @@ def motion_shares(shares: xr.Dataset, ax: Axes | None = None, *, legend: bool = 
 
 
 @checked
-def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True, **look: Any) -> Axes:
     """The shares of the attractors along a parameter, stacked, with a triangle at each tipping point.
 
     One filled step for each attractor, cut where its kind of motion changes and coloured by it; above them one for the
@@ -342,14 +356,14 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
                 continue
             run = list(group)
             steps = np.repeat(edges[run[0] : run[-1] + 2], 2)[1:-1]
-            ax.fill_between(
-                steps, np.repeat(below[run], 2), np.repeat(above[run], 2), facecolor=motion_colour(kind),
-                edgecolor="white", linewidth=0.4, label=str(kind),
-            )  # fmt: skip
+            usual: dict[str, Any] = {"edgecolor": "white", "linewidth": 0.4, "label": str(kind)}
+            ends = np.repeat(below[run], 2), np.repeat(above[run], 2)
+            ax.fill_between(steps, *ends, **look_of(PolyCollection, look, facecolor=colour_on(ax, kind), **usual))
             present.add(kind)
         below = above
     for i in np.flatnonzero(np.any(result.tips_to.values != -1, axis=1)):
-        ax.plot(between[i - 1], 1.0, marker="v", markersize=4, color="black", clip_on=False, label="tipping point")
+        mark: dict[str, Any] = {"marker": "v", "markersize": 4, "color": legible(ax, "black"), "clip_on": False}
+        ax.plot(between[i - 1], 1.0, label="tipping point", **mark)
     over_parameter(ax, parameter, values, axis_label("share"), ylim=(0.0, 1.0))
     if legend:
         add_motion_legend(ax, present)

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -9,8 +10,11 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import ListedColormap, LogNorm, Normalize, to_rgb
+from matplotlib.image import AxesImage
 from matplotlib.legend import Legend
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.typing import ColorType
 
 from gearpair._checks import checked
 from gearpair.ensembles.planes import attractor_motions
@@ -18,10 +22,15 @@ from gearpair.motion.impacts import ImpactState
 from gearpair.motion.names import IMPACT_NAMES, Motion, motions_of
 from gearpair.motion.settling import Status
 from gearpair.motion.steady import SteadyState
-from gearpair.plotting.style import add_motion_legend, motion_colour, new_axes, shade_backlash
+from gearpair.plotting.paper import look_of
+from gearpair.plotting.style import add_legend, add_motion_legend, colour_on, motion_colour, new_axes, shade_backlash
 from gearpair.quantities import axis_label
+from gearpair.quantities import quantity as quantity_of
 
 Colour = tuple[float, float, float]
+HEIGHT = 4.6  # of a map of two parameters, in inches
+ENDS = ("vmin", "vmax")  # of the colours, which are told when an image is made
+LETTERS_OF_A_BAR = 44  # in a line beside it
 MOST_NAMED = 8  # motions that a legend names one by one
 LINGERING = Motion(Status.TRANSIENT)
 
@@ -37,19 +46,21 @@ IMPACT_COLOURS: Mapping[str, str] = {
 }
 
 
-def attractor_colours(result: xr.Dataset) -> list[Colour]:
+def attractor_colours(result: xr.Dataset, ax: Axes | None = None) -> list[Colour]:
     """One colour for each attractor of `gearpair.basins`: its motion's, paler for the second of a kind and so on."""
     colours, seen = [], Counter[Motion]()
     for motion in attractor_motions(result):
         shade = 0.6 ** seen[motion.kind]
         seen[motion.kind] += 1
-        red, green, blue = (1.0 - shade * (1.0 - part) for part in to_rgb(motion_colour(motion)))
+        red, green, blue = (
+            1.0 - shade * (1.0 - part) for part in to_rgb(colour_on(ax, motion) if ax else motion_colour(motion))
+        )
         colours.append((red, green, blue))
     return colours
 
 
 @checked
-def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True, **look: Any) -> Axes:
     """Which attractor each start reaches, a second motion of a kind paler; starts that reach none are white.
 
     Of these, chaotic transients, which reach none yet, have a colour of their own. The legend above the axes names
@@ -63,13 +74,13 @@ def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -
     ['period 1, double-sided', 'period 2, single-sided']
     """
     ax = new_axes(ax, 5.0)
-    motions, colours = attractor_motions(result), attractor_colours(result)
+    motions, colours = attractor_motions(result), attractor_colours(result, ax)
     still = result.status.values == Status.TRANSIENT
     if still.any():
-        motions, colours = [*motions, LINGERING], [*colours, to_rgb(motion_colour(LINGERING))]
+        motions, colours = [*motions, LINGERING], [*colours, to_rgb(colour_on(ax, LINGERING))]
     places = np.searchsorted(np.unique(result.attractor_number), result.attractor)
     numbers = np.where(still, len(motions), np.where(result.attractor >= 0, places + 1, 0))
-    _map(ax, result, numbers, [(1.0, 1.0, 1.0), *colours])
+    _map(ax, result, numbers, [(1.0, 1.0, 1.0), *colours], look)
     if legend and len(motions) > MOST_NAMED:
         add_motion_legend(ax, motions)
     elif legend:
@@ -81,7 +92,9 @@ def basins(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -
 
 
 @checked
-def impact_states(result: xr.Dataset, ax: Axes | None = None, *, worst: bool = False, legend: bool = True) -> Axes:
+def impact_states(
+    result: xr.Dataset, ax: Axes | None = None, *, worst: bool = False, legend: bool = True, **look: Any
+) -> Axes:
     """In which impact state each start ends, or the `worst` of its whole way: the harsher the darker.
 
     Examples
@@ -96,19 +109,20 @@ def impact_states(result: xr.Dataset, ax: Axes | None = None, *, worst: bool = F
     numbers = np.zeros(states.shape, int)
     for i, state in enumerate(IMPACT_COLOURS):
         numbers[states == state] = i
-    _map(ax, result, numbers, [to_rgb(colour) for colour in IMPACT_COLOURS.values()])
+    _map(ax, result, numbers, [to_rgb(colour) for colour in IMPACT_COLOURS.values()], look)
     if legend:
         name_colours(ax, impact_colours(states))
     return ax
 
 
-def _map(ax: Axes, result: xr.Dataset, numbers: np.ndarray, colours: Sequence[Colour]) -> None:
-    _plane(ax, result, numbers, cmap=ListedColormap(list(colours)), vmin=-0.5, vmax=len(colours) - 0.5)
+def _map(ax: Axes, result: xr.Dataset, numbers: np.ndarray, colours: Sequence[Colour], look: Mapping[str, Any]) -> None:
+    _plane(ax, result, numbers, look, cmap=ListedColormap(list(colours)), vmin=-0.5, vmax=len(colours) - 0.5)
 
 
-def _plane(ax: Axes, result: xr.Dataset, values: np.ndarray, **colours: Any) -> QuadMesh:
+def _plane(ax: Axes, result: xr.Dataset, values: np.ndarray, look: Mapping[str, Any], **colours: Any) -> QuadMesh:
     ax.set(xlabel=axis_label("start_x"), ylabel=axis_label("start_v"))
-    return ax.pcolormesh(result.x.values, result.v.values, values, shading="nearest", rasterized=True, **colours)
+    image = look_of(QuadMesh, look, ENDS, rasterized=True, **colours)
+    return ax.pcolormesh(result.x.values, result.v.values, values, shading="nearest", **image)
 
 
 def impact_colours(states: np.ndarray) -> dict[str, Colour]:
@@ -117,15 +131,15 @@ def impact_colours(states: np.ndarray) -> dict[str, Colour]:
     return {IMPACT_NAMES[state]: to_rgb(colour) for state, colour in IMPACT_COLOURS.items() if state in present}
 
 
-def name_colours(ax: Axes, colours: Mapping[str, Colour], **place: Any) -> Legend:
+def name_colours(ax: Axes, colours: Mapping[str, Colour], columns: int = 1, **place: Any) -> Legend:
     """A legend of coloured patches, above the axes or where `place` says."""
     handles = [Patch(facecolor=each, edgecolor="#999999", linewidth=0.5, label=name) for name, each in colours.items()]
     place = place or {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.3}
-    return ax.legend(handles=handles, **place)
+    return add_legend(ax, handles, columns, **place)
 
 
 @checked
-def attractor_points(states: Sequence[SteadyState], ax: Axes) -> Axes:
+def attractor_points(states: Sequence[SteadyState], ax: Axes, **look: Any) -> Axes:
     """The section points of periodic attractors, as white-rimmed dots over a map of their basins.
 
     One line of dots for each periodic state.
@@ -140,15 +154,14 @@ def attractor_points(states: Sequence[SteadyState], ax: Axes) -> Axes:
     """
     for state in states:
         if state.period:
-            ax.plot(
-                *state.points.T, "o", markersize=5.5, markerfacecolor=motion_colour(state.motion),
-                markeredgecolor="white", markeredgewidth=1.0, label=str(state.motion.kind),
-            )  # fmt: skip
+            usual: dict[str, Any] = {"linestyle": "", "marker": "o", "markersize": 5.5, "markeredgecolor": "white"}
+            usual |= {"markerfacecolor": colour_on(ax, state.motion), "markeredgewidth": 1.0}
+            ax.plot(*state.points.T, **look_of(Line2D, look, label=str(state.motion.kind), **usual))
     return ax
 
 
 @checked
-def finite_exponents(result: xr.Dataset, ax: Axes | None = None, *, largest: float | None = None) -> Axes:
+def finite_exponents(result: xr.Dataset, ax: Axes | None = None, *, largest: float | None = None, **look: Any) -> Axes:
     """The largest Lyapunov exponent from each start: dark where neighbours part, pale where they stay together.
 
     A colour bar beside it; the colours end at `largest`.
@@ -161,14 +174,14 @@ def finite_exponents(result: xr.Dataset, ax: Axes | None = None, *, largest: flo
     ('initial displacement $X_0$', 2)
     """
     ax = new_axes(ax, 5.0)
-    shown = _plane(ax, result, result.exponent.values, cmap="cividis", vmin=0.0, vmax=largest)
+    shown = _plane(ax, result, result.exponent.values, look, cmap="cividis", vmin=0.0, vmax=largest)
     shade_backlash(ax, horizontal=False)
-    ax.figure.colorbar(shown, ax=ax, label=axis_label("exponent"), pad=0.01)
+    ax.figure.colorbar(shown, ax=ax, label=_long_name(result, "exponent"), pad=0.01)
     return ax
 
 
 @checked
-def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True, **look: Any) -> Axes:
     """The impact state at each point of a grid of two parameters, the harsher the darker.
 
     One image whose pixels are the grid's points.
@@ -181,14 +194,14 @@ def impact_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     ['no impact', 'single-sided']
     """
     states = result.impact_state.values
-    ax = _image(result, _pixels(states, IMPACT_COLOURS), ax)
+    ax = _image(result, _pixels(states, IMPACT_COLOURS), new_axes(ax, HEIGHT), look)
     if legend:
         name_colours(ax, impact_colours(states))
     return ax
 
 
 @checked
-def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True, **look: Any) -> Axes:
     """The motion at each point of a grid of two parameters, in the colours of all figures.
 
     One image whose pixels are the points of a `gearpair.parameter_map` with two axes, evenly spaced: the first is drawn
@@ -203,7 +216,8 @@ def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     """
     motions = motions_of(result)
     present = set(motions.ravel())
-    ax = _image(result, _pixels(motions, {motion: motion_colour(motion) for motion in present}), ax)
+    ax = new_axes(ax, HEIGHT)
+    _image(result, _pixels(motions, {motion: colour_on(ax, motion) for motion in present}), ax, look)
     if legend:
         add_motion_legend(ax, present)
     return ax
@@ -217,6 +231,7 @@ def quantity_map(
     *,
     largest: float | None = None,
     logarithmic: bool = False,
+    **look: Any,
 ) -> Axes:
     """A quantity of the motion at each point of a grid of two parameters: dark where it is small.
 
@@ -239,33 +254,40 @@ def quantity_map(
     >>> axes = {"damping_ratio": [0.05, 0.1], "mesh_frequency": [0.6, 0.7]}
     >>> ax = quantity_map(gp.parameter_map(gp.Oscillator(), axes, measures=True), "load_factor")
     >>> ax.figure.axes[1].get_ylabel()
-    'dynamic load factor'
+    'largest mesh force over the mean force'
     """
     values = result[quantity].values
     top = float(np.nanmax(values)) if largest is None else largest
     low = float(np.nanmin(values[values > 0.0])) if logarithmic else float(np.nanmin(values))
-    ax = _image(result, values, ax, norm=(LogNorm if logarithmic else Normalize)(low, top), cmap="cividis")
+    norm = (LogNorm if logarithmic else Normalize)(low, top)
+    ax = _image(result, values, new_axes(ax, HEIGHT), look, norm=norm, cmap="cividis")
     beyond = "max" if np.nanmax(values) > top else "neither"
-    ax.figure.colorbar(ax.images[0], ax=ax, label=axis_label(quantity), pad=0.01, extend=beyond)
+    ax.figure.colorbar(ax.images[0], ax=ax, label=_long_name(result, quantity), pad=0.01, extend=beyond)
     return ax
 
 
-def _pixels(values: np.ndarray, colours: Mapping[Any, str]) -> np.ndarray:
+def _long_name(result: xr.Dataset, name: str) -> str:
+    """What a colour bar says of a variable: what it is in full, in lines that are not longer than the bar."""
+    known = quantity_of(name)
+    return fill(known.title if known else str(result[name].attrs.get("long_name", name)), LETTERS_OF_A_BAR)
+
+
+def _pixels(values: np.ndarray, colours: Mapping[Any, ColorType]) -> np.ndarray:
     pixels = np.zeros((*values.shape, 3))
     for value, colour in colours.items():
         pixels[values == value] = to_rgb(colour)
     return pixels
 
 
-def _image(result: xr.Dataset, pixels: np.ndarray, ax: Axes | None, **colours: Any) -> Axes:
+def _image(result: xr.Dataset, pixels: np.ndarray, ax: Axes, look: Mapping[str, Any], **colours: Any) -> Axes:
     dims = [str(dim) for dim in result.status.dims]
     if len(dims) != 2:
         raise ValueError(f"result must be a map over two parameters, got {len(dims)}: {', '.join(dims)}")
-    ax = new_axes(ax, 4.6)
     vertical, horizontal = dims
     (left, right), (low, high) = (_ends(result[name].values) for name in (horizontal, vertical))
     extent = (left, right, low, high)
-    ax.imshow(pixels, origin="lower", extent=extent, aspect="auto", interpolation="nearest", **colours)
+    image = look_of(AxesImage, look, ENDS, interpolation="nearest", **colours)
+    ax.imshow(pixels, origin="lower", extent=extent, aspect="auto", **image)
     names = ("start_v", "start_x") if dims == ["v", "x"] else dims
     ax.set(xlabel=axis_label(names[1]), ylabel=axis_label(names[0]))
     return ax

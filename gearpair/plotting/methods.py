@@ -9,12 +9,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 
 from gearpair._checks import checked
 from gearpair.ensembles.ranges import swept_parameter
 from gearpair.methods.certificates import Segment
 from gearpair.methods.precision import EXACT, Precision, numerical_chaos
-from gearpair.plotting.style import BOUNDARY, INK, new_axes, note, over_parameter
+from gearpair.plotting.paper import faint, legible, look_of, paper
+from gearpair.plotting.style import BOUNDARY, INK, add_legend, new_axes, note, over_parameter
 from gearpair.quantities import axis_label
 
 METHOD_LOOKS = {
@@ -31,7 +33,7 @@ BESIDE: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "color": BOUNDA
 
 
 @checked
-def work_precision(measured: Sequence[Precision], ax: Axes | None = None) -> Axes:
+def work_precision(measured: Sequence[Precision], ax: Axes | None = None, **look: Any) -> Axes:
     """Time per mesh period over the one-period error of `gearpair.methods.work_precision`, both logarithmic, by method.
 
     Examples
@@ -46,19 +48,20 @@ def work_precision(measured: Sequence[Precision], ax: Axes | None = None) -> Axe
         runs = [m for m in measured if m.method == method]
         colour, marker = METHOD_LOOKS.get(method, (FAINT, "x"))
         error = [max(m.error, 2.0**-53) for m in runs]
-        size = 13 if method == EXACT else 5
-        ax.plot(error, [m.seconds for m in runs], color=colour, marker=marker, label=method, markersize=size)
+        usual: dict[str, Any] = {"color": legible(ax, colour), "marker": marker, "label": method}
+        usual["markersize"] = 13 if method == EXACT else 5
+        ax.plot(error, [m.seconds for m in runs], **look_of(Line2D, look, **usual))
     ax.set(xscale="log", yscale="log", xlabel="largest error after one mesh period", ylabel="seconds per mesh period")
     ax.invert_xaxis()
-    ax.grid(linewidth=0.4, color="#DDDDDD")
-    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    ax.grid(linewidth=0.4, color=faint(ax, "#DDDDDD"))
+    add_legend(ax, loc="center left", bbox_to_anchor=(1.0, 0.5))
     return ax
 
 
 @checked
 def drawn_diagram(
-    exact: xr.Dataset, drawn: xr.Dataset, ax: Axes | None = None, *, title: str = "", legend: bool = True
-) -> Axes:  # fmt: skip
+    exact: xr.Dataset, drawn: xr.Dataset, ax: Axes | None = None, *, title: str = "", legend: bool = True, **look: Any
+) -> Axes:
     """A diagram as an integrator draws it; in red where it is disordered, though the motion is periodic in the end.
 
     Two lines of dots: what may be believed, then what the integrator made up.
@@ -88,18 +91,20 @@ def drawn_diagram(
         (false, FALSE_CHAOS, "disordered, though periodic in the end"),
     ):
         x = drawn.x.values[chosen]
-        looks: dict[str, Any] = {"markeredgewidth": 0, "markersize": 1.7, "color": colour, "rasterized": True}
-        ax.plot(np.repeat(values[chosen], x.shape[1]), x.ravel(), ".", label=label, **looks)
+        usual: dict[str, Any] = {"markeredgewidth": 0, "markersize": 1.7, "rasterized": True, "label": label}
+        usual |= {"linestyle": "", "marker": ".", "color": legible(ax, colour)}
+        ax.plot(np.repeat(values[chosen], x.shape[1]), x.ravel(), **look_of(Line2D, look, **usual))
     over_parameter(ax, parameter, values, axis_label("section"))
-    paper = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 1.5}
-    note(ax, title, (0.0, 1.0), (6, -4), xycoords="axes fraction", va="top", bbox=paper)
+    strip = {"facecolor": paper(ax), "edgecolor": "none", "alpha": 0.85, "pad": 1.5}
+    note(ax, title, (0.0, 1.0), (6, -4), xycoords="axes fraction", va="top", bbox=strip)
     if legend:
-        ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, markerscale=5.0, borderaxespad=0.2)
+        place: dict[str, Any] = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
+        add_legend(ax, columns=2, markerscale=5.0, **place)
     return ax
 
 
 @checked
-def certificate(segment: Segment | None, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+def certificate(segment: Segment | None, ax: Axes | None = None, *, legend: bool = True, **look: Any) -> Axes:
     """A segment with its Bézier points, their hull and the boundaries in sight; that none was met, for None.
 
     Lines labelled ``"motion"`` and ``"Bézier points"``, and ``"crossing"`` where there is one.
@@ -119,7 +124,7 @@ def certificate(segment: Segment | None, ax: Axes | None = None, *, legend: bool
     low, high = points[:, 1].min() - segment.spread, points[:, 1].max() + segment.spread
     ax.axhspan(low, high, color=CUBIC, alpha=0.13, linewidth=0, label="hull $\\pm$ spread")
     ax.plot(*points.T, color=CUBIC, linestyle="--", marker="s", markersize=5, linewidth=1.0, label="Bézier points")
-    ax.plot(t, segment(t), color=INK, linewidth=1.8, label="motion")
+    ax.plot(t, segment(t), **look_of(Line2D, look, color=legible(ax, INK), linewidth=1.8, label="motion"))
     if segment.crossing is not None:
         ax.plot(segment.crossing, segment(segment.crossing), "o", color=STEP, markersize=7, label="crossing")
     _show_boundaries(segment, ax, low, high)
@@ -147,7 +152,7 @@ def _show_boundaries(segment: Segment, ax: Axes, low: float, high: float) -> Non
 
 
 @checked
-def interpolation_error(segment: Segment | None, ax: Axes | None = None) -> Axes:
+def interpolation_error(segment: Segment | None, ax: Axes | None = None, **look: Any) -> Axes:
     """The motion less its cubic Hermite interpolant, between the bounds.
 
     Examples
@@ -166,7 +171,8 @@ def interpolation_error(segment: Segment | None, ax: Axes | None = None) -> Axes
     ax.axhspan(-spread, spread, color=CUBIC, alpha=0.13, linewidth=0)
     for sign in (-1.0, 1.0):
         ax.axhline(sign * spread, color=CUBIC, linewidth=1.0, label="$\\pm$ spread" if sign > 0 else None)
-    ax.plot(t, difference, color=INK, linewidth=1.8, label="motion - cubic")
+    usual: dict[str, Any] = {"color": legible(ax, INK), "linewidth": 1.8, "label": "motion - cubic"}
+    ax.plot(t, difference, **look_of(Line2D, look, **usual))
     ax.set(xlabel=T, ylabel=f"difference in $X$ ($10^{{{power}}}$)", xlim=(0.0, segment.span))
     ax.legend(loc="upper right")
     ax.set_ylim(-1.3 * spread, 2.2 * spread)
@@ -174,7 +180,7 @@ def interpolation_error(segment: Segment | None, ax: Axes | None = None) -> Axes
 
 
 @checked
-def certified_steps(segment: Segment | None, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+def certified_steps(segment: Segment | None, ax: Axes | None = None, *, legend: bool = True, **look: Any) -> Axes:
     """The distance to the boundary that limits the steps, and the parabola under it that certifies each step.
 
     A line labelled ``"distance"``, one line for each parabola, and a dot where each step starts.
@@ -202,7 +208,8 @@ def certified_steps(segment: Segment | None, ax: Axes | None = None, *, legend: 
         bound = step.d + step.u * h + 0.5 * step.m * h * h
         ax.plot(step.t + h, bound, "--", color=STEP, linewidth=1.2, label=labels[0])
         ax.plot(step.t, step.d, "o", color=STEP, markersize=4.5, label=labels[1])
-    ax.plot(t, distance, color=INK, linewidth=1.8, label="distance", zorder=1.5)
+    usual: dict[str, Any] = {"color": legible(ax, INK), "linewidth": 1.8, "label": "distance", "zorder": 1.5}
+    ax.plot(t, distance, **look_of(Line2D, look, **usual))
     top = max(step.d for step in shown) if segment.crossing is not None else distance.max()
     ax.set(xlabel=T, ylabel=f"distance to $X = {boundary:g}$", xlim=(0.0, segment.span), ylim=(-0.25 * top, 1.6 * top))
     if legend:
@@ -211,7 +218,7 @@ def certified_steps(segment: Segment | None, ax: Axes | None = None, *, legend: 
 
 
 @checked
-def step_convergence(segment: Segment | None, ax: Axes | None = None) -> Axes:
+def step_convergence(segment: Segment | None, ax: Axes | None = None, **look: Any) -> Axes:
     """The distance left, on a logarithmic scale, at each certified step of a segment with a crossing.
 
     Examples
@@ -227,7 +234,8 @@ def step_convergence(segment: Segment | None, ax: Axes | None = None) -> Axes:
         return _none_met(ax)
     steps, _crossing = segment.certified_steps()
     distances = [max(step.d, 2.0**-53) for step in steps]
-    ax.plot(range(len(steps)), distances, color=INK, marker="o", markersize=5, label="distance")
+    usual: dict[str, Any] = {"color": legible(ax, INK), "marker": "o", "markersize": 5, "label": "distance"}
+    ax.plot(range(len(steps)), distances, **look_of(Line2D, look, **usual))
     ax.axhline(2.0**-52, color=BOUNDARY, linewidth=0.9, linestyle=":")
     note(ax, "rounding", (0.02, 2.0**-52), (0, 3), **BESIDE)
     ax.set(xlabel="step", ylabel="distance at its start", yscale="log", xticks=range(len(steps)), ylim=(1e-17, None))

@@ -7,6 +7,8 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.typing import ColorType
 
 from gearpair._checks import check_choice, check_count, check_number, checked
 from gearpair.bifurcations.orbits import PeriodicOrbit
@@ -14,7 +16,8 @@ from gearpair.motion.spectra import Spectrum
 from gearpair.motion.spectra import spectrum as spectrum_of
 from gearpair.motion.steady import SteadyState
 from gearpair.motion.trajectories import Trajectory, trajectory
-from gearpair.plotting.style import BOUNDARY, INK, STYLE, motion_colour, new_axes, shade_backlash
+from gearpair.plotting.paper import legible, look_of, paper
+from gearpair.plotting.style import BOUNDARY, INK, book_style, colour_on, new_axes, shade_backlash
 from gearpair.quantities import QUANTITIES, axis_label
 
 SHOWN_PERIODS = 8  # mesh periods of a time history
@@ -26,7 +29,7 @@ VIEWS = ("time history", "phase portrait", "Poincaré section", "spectrum")
 
 @checked
 def time_history(
-    motion: Trajectory, ax: Axes | None = None, *, n_periods: int | None = None, colour: str = INK, impacts: bool = True
+    motion: Trajectory, ax: Axes | None = None, *, n_periods: int | None = None, impacts: bool = True, **look: Any
 ) -> Axes:
     """X over time, with a dot at each contact made.
 
@@ -48,9 +51,11 @@ def time_history(
     last, made = _first_periods(motion, n_periods)
     tau = motion.tau[:last] / motion.oscillator.mesh_period
     shade_backlash(ax, horizontal=True)
-    ax.plot(tau, motion.x[:last], color=colour)
+    curve = look_of(Line2D, look, color=legible(ax, INK))
+    ax.plot(tau, motion.x[:last], **curve)
     if impacts:
-        _contact_dots(ax, motion.impacts.tau[made] / motion.oscillator.mesh_period, motion.impacts.side[made], colour)
+        across = motion.impacts.tau[made] / motion.oscillator.mesh_period
+        _contact_dots(ax, across, motion.impacts.side[made], curve["color"])
     ax.set(xlabel=axis_label("tau"), ylabel=axis_label("x"), xlim=(0.0, tau[-1]))
     return ax
 
@@ -62,16 +67,16 @@ def _first_periods(motion: Trajectory, n_periods: int | None) -> tuple[int, np.n
     return last, motion.impacts.contact & (motion.impacts.tau <= motion.tau[:last][-1])
 
 
-def _contact_dots(ax: Axes, across: np.ndarray, up: np.ndarray, colour: str) -> None:
+def _contact_dots(ax: Axes, across: np.ndarray, up: np.ndarray, colour: ColorType) -> None:
     ax.plot(
-        across.astype(float), up.astype(float), "o", markersize=3.2, markerfacecolor="white", markeredgecolor=colour,
+        across.astype(float), up.astype(float), "o", markersize=3.2, markerfacecolor=paper(ax), markeredgecolor=colour,
         markeredgewidth=0.9, label="contact made",
     )  # fmt: skip
 
 
 @checked
 def phase_portrait(
-    motion: Trajectory, ax: Axes | None = None, *, n_periods: int | None = None, colour: str = INK, impacts: bool = True
+    motion: Trajectory, ax: Axes | None = None, *, n_periods: int | None = None, impacts: bool = True, **look: Any
 ) -> Axes:
     """X' over X, the strip out of contact shaded, a dot at each contact made; see `time_history`.
 
@@ -85,9 +90,10 @@ def phase_portrait(
     ax = new_axes(ax, 5.0)
     last, made = _first_periods(motion, n_periods)
     shade_backlash(ax, horizontal=False)
-    ax.plot(motion.x[:last], motion.v[:last], color=colour, linewidth=1.2 if last < 2000 else 0.35)
+    curve = look_of(Line2D, look, color=legible(ax, INK), linewidth=1.2 if last < 2000 else 0.35)
+    ax.plot(motion.x[:last], motion.v[:last], **curve)
     if impacts:
-        _contact_dots(ax, motion.impacts.side[made], motion.impacts.velocity[made], colour)
+        _contact_dots(ax, motion.impacts.side[made], motion.impacts.velocity[made], curve["color"])
     ax.set(xlabel=axis_label("x"), ylabel=axis_label("v"))
     return ax
 
@@ -97,8 +103,8 @@ def poincare_section(
     motion: Trajectory | SteadyState | PeriodicOrbit,
     ax: Axes | None = None,
     *,
-    colour: str = INK,
     size: float | None = None,
+    **look: Any,
 ) -> Axes:
     """X' over X once per base period, at ``tau mod T = 0``; dots of `size` points, or as their number suggests.
 
@@ -118,14 +124,15 @@ def poincare_section(
         x, v = motion.points.T
     few = len(np.unique(np.round(np.stack([x, v]), 6), axis=1).T) <= 64
     size = size or (5.0 if few else 1.0)
-    ax.plot(x, v, "o", markeredgewidth=0, markersize=size, color=colour, rasterized=not few)
+    usual: dict[str, Any] = {"linestyle": "", "marker": "o", "markeredgewidth": 0, "markersize": size}
+    ax.plot(x, v, **look_of(Line2D, look, color=legible(ax, INK), rasterized=not few, **usual))
     ax.set(xlabel=axis_label("x"), ylabel=axis_label("v"))
     return ax
 
 
 @checked
 def spectrum(
-    lines: Spectrum, ax: Axes | None = None, *, period: int | None = None, highest: float = 3.0, colour: str = INK
+    lines: Spectrum, ax: Axes | None = None, *, period: int | None = None, highest: float = 3.0, **look: Any
 ) -> Axes:
     """The amplitude spectrum of X on a logarithmic scale; multiples of ``1 / period`` of the mesh frequency ruled.
 
@@ -152,10 +159,12 @@ def spectrum(
         ax.axvline(k / (period or 1), color=BOUNDARY, linewidth=0.5, alpha=0.45, linestyle=(0, (1, 2)), zorder=-1)
     if period:
         real = amplitude > LOWEST_LINE
-        ax.vlines(frequency[real], LOWEST_LINE, amplitude[real], color=colour, linewidth=1.2)
-        ax.plot(frequency[real], amplitude[real], "o", markersize=2.6, color=colour)
+        dots = look_of(Line2D, look, color=legible(ax, INK), linestyle="", marker="o", markersize=2.6)
+        stem = dots["color"], dots.get("linewidth", 1.2)
+        ax.vlines(frequency[real], LOWEST_LINE, amplitude[real], color=stem[0], linewidth=stem[1])
+        ax.plot(frequency[real], amplitude[real], **dots)
     else:
-        ax.plot(frequency, amplitude, color=colour, linewidth=0.6)
+        ax.plot(frequency, amplitude, **look_of(Line2D, look, color=legible(ax, INK), linewidth=0.6))
     ax.set_yscale("log")
     ax.set(xlabel=axis_label("frequency"), ylabel="amplitude", xlim=(0, highest + 0.1), ylim=(LOWEST_LINE, 10.0))
     ax.set_xticks(range(int(highest) + 1))
@@ -163,7 +172,7 @@ def spectrum(
 
 
 @checked
-def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: str = "") -> list[Axes]:
+def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: str = "", **look: Any) -> list[Axes]:
     """A settled motion in four views: time history, phase portrait, Poincaré section, spectrum.
 
     Parameters
@@ -182,26 +191,26 @@ def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: s
     ['displacement $X$', "velocity $X'$", "velocity $X'$", 'amplitude']
     """
     if axes is None:
-        with plt.style.context(STYLE):
+        with plt.style.context(book_style()):
             axes = list(plt.figure(figsize=(8.0, 5.4)).subplots(2, 2).flat)
-    period, colour = state.period, motion_colour(state.motion)
+    period, look = state.period, {"color": colour_on(axes[0], state.motion), **look_of(Line2D, look)}
     osc, whole = state.oscillator, state.oscillator.mesh_periods
     cycle = period * whole if period else None  # in mesh periods
     n_periods = period * -(-SPECTRUM_PERIODS // cycle) if period and cycle else osc.base_periods(CHAOS_PERIODS)
     x, v = map(float, state.points[0])
     motion = trajectory(osc, x, v, n_periods)
-    time_history(motion, axes[0], n_periods=max(SHOWN_PERIODS, whole), colour=colour)
-    phase_portrait(motion, axes[1], n_periods=cycle or max(60, whole), colour=colour, impacts=period is not None)
+    time_history(motion, axes[0], n_periods=max(SHOWN_PERIODS, whole), **look)
+    phase_portrait(motion, axes[1], n_periods=cycle or max(60, whole), impacts=period is not None, **look)
     shade_backlash(axes[2], horizontal=False)
-    poincare_section(motion, axes[2], colour=colour)
+    poincare_section(motion, axes[2], **look)
     axes[2].set(xlim=axes[1].get_xlim(), ylim=axes[1].get_ylim())
-    spectrum(spectrum_of(motion, window="boxcar" if period else "hann"), axes[3], period=cycle, colour=colour)
+    spectrum(spectrum_of(motion, window="boxcar" if period else "hann"), axes[3], period=cycle, **look)
     axes[0].set_title(title, loc="left")
     return list(axes)
 
 
 @checked
-def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequency") -> Figure:
+def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequency", **look: Any) -> Figure:
     """Settled motions under one another, each a row of the four views of `portrait`.
 
     Parameters
@@ -220,13 +229,14 @@ def gallery(states: Mapping[Any, SteadyState], *, parameter: str = "mesh_frequen
     """
     if not states:
         raise ValueError("states must hold at least one motion, got none")
-    with plt.style.context({**STYLE, "font.size": 8.0, "axes.labelsize": 8.0}):
+    with plt.style.context(book_style(**{"font.size": 8.0, "axes.labelsize": 8.0})):
         figure = plt.figure(figsize=(8.6, 0.5 + 1.75 * len(states)))
         grid = figure.subplots(len(states), len(VIEWS), squeeze=False)
         check_choice("parameter", parameter, [name for name in QUANTITIES if QUANTITIES[name].in_tex])
         for row, (name, state) in zip(grid, states.items(), strict=True):
             symbol = QUANTITIES[parameter].in_tex
-            portrait(state, row, title=f"{name}  (${symbol} = {state.oscillator.parameter(parameter):.4g}$)")
+            title = f"{name}  (${symbol} = {state.oscillator.parameter(parameter):.4g}$)"
+            portrait(state, row, title=title, **look)
         for ax, view in zip(grid[0][1:], VIEWS[1:], strict=True):
             ax.set_title(view, weight="normal", loc="right")
         for ax in grid[:-1].flat:

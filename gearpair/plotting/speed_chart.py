@@ -6,13 +6,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from gearpair._checks import checked
 from gearpair.design import IdleRattle, IsoDynamicFactor
 from gearpair.design.sensitivities import OUTCOMES
 from gearpair.plotting.maps import IMPACT_COLOURS, impact_colours, name_colours
-from gearpair.plotting.style import INK, new_axes, note, over_parameter
+from gearpair.plotting.paper import legible, look_of
+from gearpair.plotting.style import INK, add_legend, new_axes, note, over_parameter
 from gearpair.quantities import axis_label
 
 # Lines need more contrast than areas: contact kept, lost on one side, both flanks struck.
@@ -34,7 +36,7 @@ CHANGES: Mapping[str, str] = {
 
 @checked
 def dynamic_factors(
-    chart: xr.Dataset, iso: IsoDynamicFactor | None = None, ax: Axes | None = None, *, jumps: bool = True
+    chart: xr.Dataset, iso: IsoDynamicFactor | None = None, ax: Axes | None = None, *, jumps: bool = True, **look: Any
 ) -> Axes:
     """The dynamic factor over the speed, run up and down, with jumps, impact states, and what is usually taken.
 
@@ -74,14 +76,16 @@ def dynamic_factors(
         _mark_worst(ax, chart)
     for run, style, width in (("up", "-", 1.8), ("down", (0, (2.5, 1.2)), 1.4)):
         values, states = factor.sel(run=run).values, chart.impact_state.sel(run=run).values
-        ax.plot([], [], color=INK, linestyle=style, linewidth=width, label=f"run {run}")
-        _by_state(ax, speed, values, states, style, width)
+        line = look_of(Line2D, look, linestyle=style, linewidth=width)
+        ax.plot([], [], **{"color": legible(ax, INK), **line, "label": f"run {run}"})
+        _by_state(ax, speed, values, states, line)
     if jumps:
         _mark_jumps(ax, chart)
     over_parameter(ax, "speed", speed, axis_label("dynamic_factor"))
     ax.set_ylim(0.8, 0.8 + (top - 0.8) * 1.35)
     _strips(ax, chart)
-    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.02), ncols=5, handlelength=2.2, borderaxespad=0.0, fontsize=8)
+    place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.02), "borderaxespad": 0.0}
+    add_legend(ax, columns=5, handlelength=2.2, fontsize=8, **place)
     return ax
 
 
@@ -90,11 +94,11 @@ def _mark_worst(ax: Axes, chart: xr.Dataset) -> None:
     runs, worst = chart.dynamic_factor.sel(run=["up", "down"]).values, chart.dynamic_factor.sel(run="worst").values
     other = ~np.isclose(runs, worst, rtol=1e-6, equal_nan=True).any(axis=0)
     if other.any():
-        looks: dict[str, Any] = {"markersize": 3, "markerfacecolor": "none", "color": OTHER_INK}
+        looks: dict[str, Any] = {"markersize": 3, "markerfacecolor": "none", "color": legible(ax, OTHER_INK)}
         ax.plot(chart.speed.values[other], worst[other], "o", label="worst found from other starts", **looks)
 
 
-def _by_state(ax: Axes, speed: np.ndarray, values: np.ndarray, states: np.ndarray, style: object, width: float) -> None:
+def _by_state(ax: Axes, speed: np.ndarray, values: np.ndarray, states: np.ndarray, line: Mapping[str, Any]) -> None:
     """A line that is broken where the run jumps, coloured by the impact state at each speed's left end."""
     jump = np.abs(np.diff(values)) > LEAP * np.nanmax(values)
     first = 0
@@ -102,25 +106,25 @@ def _by_state(ax: Axes, speed: np.ndarray, values: np.ndarray, states: np.ndarra
         if i < len(speed) and states[i] == states[first] and not jump[i - 1]:
             continue
         last = i + 1 if i < len(speed) and not jump[i - 1] else i  # as far as the next piece, unless the run jumps
-        ax.plot(
-            speed[first:last], values[first:last], linestyle=style, linewidth=width, zorder=3,
-            color=STATE_INK.get(str(states[first]), OTHER_INK), solid_capstyle="butt",
-        )  # fmt: skip
+        colour = legible(ax, STATE_INK.get(str(states[first]), OTHER_INK))
+        own = {"color": colour, "zorder": 3, "solid_capstyle": "butt", **line, "label": None}
+        ax.plot(speed[first:last], values[first:last], **own)
         first = i
 
 
 def _mark_jumps(ax: Axes, chart: xr.Dataset) -> None:
     """An arrow from the motion that a run leaves to the one it goes to, with the speed beside it."""
+    grey = legible(ax, "#333333")
     for run, before, shift, ha in (("up", -1, 4, "left"), ("down", 1, -4, "right")):
         values, jumps = (chart[name].sel(run=run).values for name in ("dynamic_factor", "jump_speed"))
         for i in np.flatnonzero(np.isfinite(jumps)):
             at, start, end = jumps[i], values[i + before], values[i]
             if not abs(end - start) > LEAP * np.nanmax(values):
                 continue
-            arrow: dict[str, Any] = {"arrowstyle": "-|>", "color": "#333333", "linewidth": 0.9}
+            arrow: dict[str, Any] = {"arrowstyle": "-|>", "color": grey, "linewidth": 0.9}
             ax.annotate("", (at, end), (at, start), arrowprops=arrow)
             middle = (at, 0.5 * (start + end))
-            note(ax, f"{at:.0f}", middle, (shift, 0), fontsize=8, ha=ha, va="center", color="#333333")
+            note(ax, f"{at:.0f}", middle, (shift, 0), fontsize=8, ha=ha, va="center", color=grey)
 
 
 def _strips(ax: Axes, chart: xr.Dataset) -> None:
@@ -138,12 +142,12 @@ def _strips(ax: Axes, chart: xr.Dataset) -> None:
         )  # fmt: skip
     present = impact_colours(chart.impact_state.sel(run=["up", "down"]).values)
     under = (1.0, 1.0 - 2 * STRIP)
-    key = name_colours(ax, present, loc="upper right", bbox_to_anchor=under, fontsize=7.5, ncols=len(present))
+    key = name_colours(ax, present, loc="upper right", bbox_to_anchor=under, fontsize=7.5, columns=len(present))
     ax.add_artist(key)
 
 
 @checked
-def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]:
+def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes], **look: Any) -> tuple[Axes, Axes]:
     """What the teeth bear over the speed: the dynamic transmission error, and impacts, of both runs.
 
     Examples
@@ -161,8 +165,9 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]
     left.plot(speed, chart.linear_rms.values, color=GREY, linewidth=1.0, label="linear response")
     for run, style in (("up", "-"), ("down", (0, (2.5, 1.2)))):
         chosen = chart.sel(run=run)
-        left.plot(speed, chosen.dte_rms.values, color=INK, linestyle=style, label=f"run {run}")
-        right.plot(speed, chosen.impact_velocity.values, color=INK, linestyle=style, label=f"run {run}")
+        line = look_of(Line2D, look, color=legible(left, INK), linestyle=style, label=f"run {run}")
+        left.plot(speed, chosen.dte_rms.values, **line)
+        right.plot(speed, chosen.impact_velocity.values, **line)
     for ax, shown in zip(axes, ("dte_rms", "impact_velocity"), strict=True):
         over_parameter(ax, "speed", speed, axis_label(shown), ylim=(0.0, None))
     left.legend()
@@ -171,7 +176,12 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes]) -> tuple[Axes, Axes]
 
 @checked
 def tornado(
-    found: xr.Dataset, outcome: str = "dynamic_factor", ax: Axes | None = None, *, sort_by: str | None = None
+    found: xr.Dataset,
+    outcome: str = "dynamic_factor",
+    ax: Axes | None = None,
+    *,
+    sort_by: str | None = None,
+    **look: Any,
 ) -> Axes:
     """What each change does to the worst of the speed range: a bar for each of its two ends, the strongest on top.
 
@@ -198,23 +208,24 @@ def tornado(
     for place, k in enumerate(order):
         for end, colour in enumerate(ends.values()):
             lane = place + (0.5 - end) * LANE  # each end has its own, for both may lie on one side of the base
-            ax.barh(lane, values[k, end] - base, left=base, height=LANE, color=colour, zorder=2)
+            bar = look_of(Patch, look, ("height",), height=LANE, color=colour, zorder=2)
+            ax.barh(lane, values[k, end] - base, left=base, **bar)
             beyond = values[k, end] - base > -1e-9 * base  # or the same, up to rounding
             shift, ha = (3, "left") if beyond else (-3, "right")
             told = f"{found.value.values[k, end]:.3g}"
             note(ax, told, (values[k, end], lane), (shift, 0), fontsize=7, va="center_baseline", ha=ha)
-    ax.axvline(base, color="#333333", linewidth=0.9, zorder=3)
+    ax.axvline(base, color=legible(ax, "#333333"), linewidth=0.9, zorder=3)
     names = [str(found.change.values[k]) for k in order]
     ax.set_yticks(range(len(names)), [CHANGES.get(name, name) for name in names])
     ax.set_xlabel(axis_label(OUTCOMES[outcome]))
     ax.margins(x=0.12)
     handles = [Patch(color=colour, label=name) for name, colour in ends.items()]
-    ax.legend(handles=handles, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
+    add_legend(ax, handles, 2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
     return ax
 
 
 @checked
-def rattle(found: IdleRattle, ax: Axes | None = None) -> Axes:
+def rattle(found: IdleRattle, ax: Axes | None = None, **look: Any) -> Axes:
     """Impacts of an idle gear over the speed, and where its inertia torque exceeds the drag.
 
     Examples
@@ -227,12 +238,13 @@ def rattle(found: IdleRattle, ax: Axes | None = None) -> Axes:
     'largest impact velocity (mm/s)'
     """
     ax = new_axes(ax, 2.8)
-    ax.plot(found.speed_rpm, found.impact_velocity, color=INK)
+    ax.plot(found.speed_rpm, found.impact_velocity, **look_of(Line2D, look, color=legible(ax, INK)))
     over_parameter(ax, "speed", found.speed_rpm, axis_label("impact_velocity"), ylim=(0.0, None))
     quiet = found.rattle_ratio < 1.0
     if quiet.any() and not quiet.all():
         onset = float(np.interp(1.0, found.rattle_ratio, found.speed_rpm))
         ax.axvline(onset, color=GREY, linestyle=(0, (5, 2)), linewidth=1.0)
-        looks: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "va": "top", "fontsize": 8, "color": "#555555"}
+        grey = legible(ax, "#555555")
+        looks: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "va": "top", "fontsize": 8, "color": grey}
         note(ax, "inertia torque = drag", (onset, 1.0), (4, -4), **looks)
     return ax

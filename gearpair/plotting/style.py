@@ -1,18 +1,23 @@
 """The look of every figure, in one place."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from cycler import cycler
 from matplotlib import pyplot as plt
+from matplotlib import rcParams
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
+from matplotlib.typing import ColorType
 
 from gearpair._checks import checked
 from gearpair.article.published import CHAOTIC, COMPLEX
 from gearpair.motion.names import CHAOS, Motion
+from gearpair.plotting.paper import contrast, faint, legible, text_colour
 from gearpair.quantities import axis_label
 
 # For plt.style.use: a figure that fills the book's column, with text of the size of the book's captions.
@@ -62,6 +67,9 @@ MOTION_COLOURS = MappingProxyType(
 BACKLASH = "#F1EDE4"  # the strip where the teeth are out of contact
 BOUNDARY = "#8C8577"
 INK = "#1F3A5F"  # curves that have no period to tell
+# What of the style is meant for light paper; where the figures are dark, the dark style has its own.
+OF_PAPER = ("axes.edgecolor", "xtick.color", "ytick.color", "xtick.labelcolor", "ytick.labelcolor", "axes.prop_cycle")
+TALLEST = 0.6  # share of a figure that lays itself out which a legend may take
 
 
 @checked
@@ -84,9 +92,16 @@ def legend_name(motion: Motion) -> str:
     return "other periods" if kind.period and name not in MOTION_COLOURS else name
 
 
+def colour_on(ax: Axes, motion: Motion) -> ColorType:
+    """The colour of a motion, legible on these axes."""
+    return legible(ax, motion_colour(motion))
+
+
 @checked
-def add_motion_legend(ax: Axes, motions: Iterable[Motion]) -> None:
-    """A row of coloured dots above the axes, in the order of `MOTION_COLOURS`.
+def add_motion_legend(ax: Axes, motions: Iterable[Motion], **look: Any) -> None:
+    """A row of coloured dots above the axes, in the order of `MOTION_COLOURS`; rows where one is too long.
+
+    `look` is matplotlib's of a legend.
 
     Examples
     --------
@@ -96,27 +111,52 @@ def add_motion_legend(ax: Axes, motions: Iterable[Motion]) -> None:
     >>> [text.get_text() for text in ax.get_legend().get_texts()]
     ['period 2', 'chaos']
     """
-    present = {legend_name(motion): motion_colour(motion) for motion in motions}
+    present = {legend_name(motion): colour_on(ax, motion) for motion in motions}
     names = [name for name in MOTION_COLOURS if name in present] + sorted(present.keys() - MOTION_COLOURS.keys())
     dots = [Line2D([], [], linestyle="", marker="o", markersize=5, color=present[name], label=name) for name in names]
     size = 8.5 if len(dots) < 8 else 7.5  # so that a long row does not push the axes aside
-    ax.legend(
-        handles=dots, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(dots), handletextpad=0.1,
-        columnspacing=0.8, borderaxespad=0.2, fontsize=size,
-    )  # fmt: skip
+    usual: dict[str, Any] = {"handletextpad": 0.1, "columnspacing": 0.8, "borderaxespad": 0.2, "fontsize": size}
+    usual |= {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0)}
+    add_legend(ax, dots, **{"columns": len(dots), **usual, **look})
+
+
+def add_legend(ax: Axes, handles: Sequence[Artist] | None = None, columns: int = 1, **look: Any) -> Legend:
+    """A legend that stays in the figure: of so many columns, else of fewer or more, else inside the axes.
+
+    Of what has a label, where no handles are given.
+    """
+    handles = ax.get_legend_handles_labels()[0] if handles is None else handles
+    others = sorted(range(1, len(handles) + 1), key=lambda n: abs(n - columns))
+    for n in (columns, *others):
+        legend = ax.legend(handles=handles, ncols=n, **look)
+        if _fits(legend, ax):
+            return legend
+    place = {name: look[name] for name in look if name not in ("loc", "bbox_to_anchor", "borderaxespad")}
+    return ax.legend(handles=handles, **{**place, "loc": "best", "frameon": True})
+
+
+def _fits(legend: Legend, ax: Axes) -> bool:
+    """Whether a legend is within its figure; within a figure that lays itself out, whether it can be."""
+    whole = ax.get_figure(root=True)
+    if whole is None:
+        return True
+    box, page = legend.get_window_extent(), whole.bbox
+    if whole.get_layout_engine() is not None:
+        return bool(box.width <= page.width and box.height <= TALLEST * page.height)
+    return bool(box.x0 >= page.x0 and box.x1 <= page.x1 and box.y0 >= page.y0 and box.y1 <= page.y1)
 
 
 def shade_backlash(ax: Axes, *, horizontal: bool) -> None:
     """The strip |X| < 1, where no teeth touch, and its two boundaries."""
     span, line = (ax.axhspan, ax.axhline) if horizontal else (ax.axvspan, ax.axvline)
-    span(-1.0, 1.0, color=BACKLASH, zorder=-2, linewidth=0)
+    span(-1.0, 1.0, color=faint(ax, BACKLASH), zorder=-2, linewidth=0)
     for side in (-1.0, 1.0):
         line(side, color=BOUNDARY, linewidth=0.7, linestyle=(0, (5, 3)), zorder=-1)
 
 
 def note(ax: Axes, text: str, at: tuple[float, float], shift: tuple[float, float], **look: Any) -> None:
     """A text that stands `shift` points from `at`."""
-    ax.annotate(text, at, shift, textcoords="offset points", **look)
+    ax.annotate(text, at, shift, textcoords="offset points", **{"color": text_colour(ax), **look})
 
 
 def over_parameter(ax: Axes, parameter: str, values: np.ndarray, ylabel: str, **limits: Any) -> None:
@@ -135,6 +175,12 @@ def new_axes(ax: Axes | None, height: float | None = None) -> Axes:
     """`ax`, or the only axes of a new figure in the book's style."""
     if ax is not None:
         return ax
-    with plt.style.context(STYLE):
+    with plt.style.context(book_style()):
         width, usual = STYLE["figure.figsize"]
         return plt.figure(figsize=(width, height or usual)).add_subplot()
+
+
+def book_style(**changes: Any) -> dict[str, Any]:
+    """The book's style with some `changes`; where figures are dark already, they stay so."""
+    dark = contrast(rcParams["axes.facecolor"], "white") > contrast(rcParams["axes.facecolor"], "black")
+    return {name: value for name, value in STYLE.items() if not (dark and name in OF_PAPER)} | changes

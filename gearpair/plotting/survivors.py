@@ -1,14 +1,18 @@
 """How long chaos lives: the survivors over the mesh periods."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib import colormaps
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.typing import ColorType
 
 from gearpair._checks import checked
 from gearpair.ensembles.lifetimes import estimate_of
+from gearpair.plotting.paper import legible, look_of
 from gearpair.plotting.style import BOUNDARY, INK, new_axes
 from gearpair.quantities import axis_label
 
@@ -19,7 +23,7 @@ SHARES = {1.0: "all", 0.5: "half", 0.1: "1 in 10", 0.01: "1 in 100", 0.001: "1 i
 
 
 @checked
-def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, colour: str = INK, legend: bool = True) -> Axes:
+def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = True, **look: Any) -> Axes:
     """The starts still on their way over the mesh periods, on a logarithmic scale, with the fitted escape rate.
 
     Steps for the survivors; dashed, from the end of what is discarded (dotted), the line of the fitted rate in the
@@ -36,7 +40,9 @@ def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, colour: str = 
     ax = new_axes(ax)
     waited, survivors, n_periods = result.waited.values, result.survivors.values, result.attrs["n_periods"]
     end = n_periods if survivors[-1] else min(n_periods, max(1.4 * waited[-2], 2.0 * result.attrs["discard"], 1.0))
-    ax.step(waited, np.maximum(survivors, BELOW), where="post", color=colour)
+    steps = look_of(Line2D, look, color=legible(ax, INK))
+    colour = steps["color"]
+    ax.step(waited, np.maximum(survivors, BELOW), where="post", **steps)
     ax.axvline(result.attrs["discard"], color=BOUNDARY, linewidth=0.9, linestyle=(0, (1, 1.6)), zorder=-1)
     estimate = estimate_of(result)
     if np.isfinite(estimate.escape_rate_high):
@@ -57,7 +63,12 @@ def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, colour: str = 
 
 @checked
 def survival_curves(
-    results: Mapping[str, xr.Dataset], ax: Axes | None = None, *, until: int | None = None, lowest: float = 0.005
+    results: Mapping[str, xr.Dataset],
+    ax: Axes | None = None,
+    *,
+    until: int | None = None,
+    lowest: float = 0.005,
+    **look: Any,
 ) -> Axes:
     """The survivors of several watches in one picture, each as a share of those that `discard` left.
 
@@ -90,10 +101,12 @@ def survival_curves(
     end = float(min(watches, default=1) if until is None else until)
     for i, name in enumerate(ranked):
         estimate, result = estimates[name], results[name]
-        colour = LIVES(SHORTEST + (LONGEST - SHORTEST) * i / max(len(ranked) - 1, 1))
+        shade = legible(ax, LIVES(SHORTEST + (LONGEST - SHORTEST) * i / max(len(ranked) - 1, 1)))
+        steps = look_of(Line2D, look, color=shade, linewidth=1.6, label=name)
+        colour = steps["color"]
         since = result.waited.values - result.attrs["discard"]
         shares = np.maximum(result.survivors.values / estimate.n_watched, 0.1 * lowest)
-        ax.step(since[since >= 0], shares[since >= 0], where="post", color=colour, linewidth=1.6, label=name)
+        ax.step(since[since >= 0], shares[since >= 0], where="post", **steps)
         tau = np.linspace(0.0, end, 400)
         rates = estimate.escape_rate_high, estimate.escape_rate, estimate.escape_rate_low
         steepest, fitted, flattest = (np.exp(-rate * tau) for rate in rates)
@@ -109,9 +122,7 @@ def survival_curves(
     return ax
 
 
-def _name_curve(
-    ax: Axes, name: str, rate: float, end: float, lowest: float, colour: tuple[float, float, float, float]
-) -> None:
+def _name_curve(ax: Axes, name: str, rate: float, end: float, lowest: float, colour: ColorType) -> None:
     """A curve's name beside the frame where it leaves on the right, and beside the curve where it leaves below."""
     low = 1.6 * lowest
     if np.exp(-rate * end) > low:

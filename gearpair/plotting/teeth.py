@@ -6,10 +6,13 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from gearpair._checks import check_count, checked
-from gearpair.plotting.style import BOUNDARY, INK, new_axes, note
+from gearpair.plotting.paper import legible, look_of, paper
+from gearpair.plotting.style import BOUNDARY, INK, add_legend, new_axes, note
 from gearpair.quantities import axis_label
 from gearpair.teeth.finite_elements import MEASURES, FiniteElementBody
 from gearpair.teeth.loading import LoadedMesh
@@ -62,7 +65,11 @@ def per_width(mesh: MeshStiffness) -> float:
 
 @checked
 def tooth_outlines(
-    gear: SpurGear, ax: Axes | None = None, *, roots: Sequence[Root] = ("trochoid", "straight", "base_circle")
+    gear: SpurGear,
+    ax: Axes | None = None,
+    *,
+    roots: Sequence[Root] = ("trochoid", "straight", "base_circle"),
+    **look: Any,
 ) -> Axes:
     """One tooth with each kind of root, on its root and base circles; lengths in modules.
 
@@ -91,12 +98,14 @@ def tooth_outlines(
         note(ax, name, at_end, (3, 0), fontsize=7.5, color=BOUNDARY, va="center")
     for k, root in enumerate(roots):
         h, y = _outline(ToothProfile(gear, root))
-        style, width = ("--", 1.4) if k else ("-", 2.0)
+        usual: dict[str, Any] = {"linestyle": "--", "linewidth": 1.4} if k else {"linestyle": "-", "linewidth": 2.0}
+        usual |= {"color": legible(ax, ROOT_COLOURS[root]), "label": ROOT_NAMES[root]}
+        line = look_of(Line2D, look, **usual)
         if k == 0:
-            ax.fill(h, y, color=ROOT_COLOURS[root], alpha=0.10, linewidth=0)
-        ax.plot(h, y, style, color=ROOT_COLOURS[root], linewidth=width, label=ROOT_NAMES[root])
+            ax.fill(h, y, color=line["color"], alpha=0.10, linewidth=0)
+        ax.plot(h, y, **line)
     ax.set(xlabel="modules from the centre line", ylabel="modules from the gear's centre", aspect="equal")
-    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=1)
+    add_legend(ax, loc="lower left", bbox_to_anchor=(0.0, 1.0))
     return ax
 
 
@@ -111,7 +120,7 @@ def _outline(tooth: ToothProfile) -> tuple[Array, Array]:
 
 
 @checked
-def compliance_stack(mesh: MeshStiffness, ax: Axes | None = None, *, legend: bool = True) -> Axes:
+def compliance_stack(mesh: MeshStiffness, ax: Axes | None = None, *, legend: bool = True, **look: Any) -> Axes:
     """What the compliance of one pair of teeth is made of, stacked along its path of contact.
 
     One filled band for each part; compliance times face width, in micrometres per N/mm. The legend beside the axes has
@@ -127,13 +136,12 @@ def compliance_stack(mesh: MeshStiffness, ax: Axes | None = None, *, legend: boo
     ax = new_axes(ax, 3.8)
     parts = [name for name in PART_COLOURS if np.any(mesh.compliance_m_per_n[name])]
     bands = [mesh.compliance_m_per_n[name] / per_width(mesh) for name in parts]
-    ax.stackplot(
-        mesh.path, bands, labels=[name.replace("_", ", ") for name in parts],
-        colors=[PART_COLOURS[name] for name in parts], linewidth=0.4, edgecolor="white",
-    )  # fmt: skip
+    names, colours = [name.replace("_", ", ") for name in parts], [PART_COLOURS[name] for name in parts]
+    area = look_of(PolyCollection, look, linewidth=0.4, edgecolor="white")
+    ax.stackplot(mesh.path, bands, labels=names, colors=colours, **area)
     _along_contact(mesh, ax, "compliance (µm per N/mm)")
     if legend:
-        ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), reverse=True)
+        add_legend(ax, loc="center left", bbox_to_anchor=(1.0, 0.5), reverse=True)
     return ax
 
 
@@ -143,12 +151,12 @@ def _along_contact(mesh: MeshStiffness, ax: Axes, ylabel: str) -> None:
     on_pinion = pair.pinion.base_radius_mm * math.tan(pair.working_pressure_angle)
     where = (on_pinion - pair.contact_start_mm) / pair.base_pitch_mm
     if 0.0 <= where <= pair.contact_ratio:
-        ax.axvline(where, color="#444444", linewidth=0.8, linestyle=":")
+        ax.axvline(where, color=legible(ax, "#444444"), linewidth=0.8, linestyle=":")
     ax.set(xlabel=SINCE_ENTRY, ylabel=ylabel, xlim=(0.0, mesh.contact_ratio), ylim=(0.0, None))
 
 
 @checked
-def pair_stiffness(mesh: MeshStiffness, ax: Axes | None = None, *, colour: str = INK, label: str | None = None) -> Axes:
+def pair_stiffness(mesh: MeshStiffness, ax: Axes | None = None, **look: Any) -> Axes:
     """Stiffness of one pair of teeth alone along its path of contact.
 
     Examples
@@ -159,7 +167,7 @@ def pair_stiffness(mesh: MeshStiffness, ax: Axes | None = None, *, colour: str =
     'stiffness per width (N/mm/µm)'
     """
     ax = new_axes(ax, 3.0)
-    ax.plot(mesh.path, mesh.pair_stiffness_n_per_m * per_width(mesh), color=colour, label=label)
+    ax.plot(mesh.path, mesh.pair_stiffness_n_per_m * per_width(mesh), **look_of(Line2D, look, color=legible(ax, INK)))
     _along_contact(mesh, ax, LABEL_STIFFNESS)
     return ax
 
@@ -172,7 +180,7 @@ def mesh_curves(
     n_periods: int = 2,
     two_levels: bool = False,
     colours: Sequence[str] = (INK, "#D55E00", "#009E73", "#CC79A7", "#56B4E9"),
-    linestyle: str = "-",
+    **look: Any,
 ) -> Axes:
     """Mesh stiffness over some mesh periods, one curve for each name.
 
@@ -186,7 +194,7 @@ def mesh_curves(
         Add the mean over each zone of the period, dashed: the rectangle, where two pairs and one alternate.
     colours : sequence of str
         Taken in turn.
-    linestyle : str
+    **look
         Of all the curves.
 
     Examples
@@ -200,12 +208,14 @@ def mesh_curves(
     n_periods = check_count("n_periods", n_periods)
     ax = new_axes(ax, 3.0)
     for k, (name, mesh) in enumerate(meshes.items()):
-        factor, colour = per_width(mesh), colours[k % len(colours)]
+        factor = per_width(mesh)
+        line = look_of(Line2D, look, color=legible(ax, colours[k % len(colours)]), label=name)
+        colour = line["color"]
         time = np.concatenate([mesh.phase + period for period in range(n_periods)])
         values = np.tile(mesh.stiffness_n_per_m * factor, n_periods)
         jumps = np.flatnonzero(np.diff(np.tile(mesh.pairs_in_contact, n_periods))) + 1
         broken = np.insert(time, jumps, np.nan), np.insert(values, jumps, np.nan)
-        ax.plot(*broken, color=colour, label=name, linestyle=linestyle)
+        ax.plot(*broken, **line)
         ax.vlines(time[jumps], values[jumps - 1], values[jumps], color=colour, linewidth=0.5, linestyle=":")
         if two_levels:
             wave = mesh.wave(len(mesh.zones))
@@ -214,13 +224,17 @@ def mesh_curves(
             ax.stairs(levels, edges, baseline=None, color=colour, linestyle="--", linewidth=1.0)
     ax.set(xlabel=axis_label("tau"), ylabel=LABEL_STIFFNESS, xlim=(0.0, n_periods), ylim=(0.0, None))
     if len(meshes) > 1:
-        ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=len(meshes))
+        add_legend(ax, columns=len(meshes), loc="lower left", bbox_to_anchor=(0.0, 1.0))
     return ax
 
 
 @checked
 def load_shares(
-    meshes: Mapping[str, MeshStiffness], ax: Axes | None = None, *, colours: Sequence[str] = (INK, "#D55E00")
+    meshes: Mapping[str, MeshStiffness],
+    ax: Axes | None = None,
+    *,
+    colours: Sequence[str] = (INK, "#D55E00"),
+    **look: Any,
 ) -> Axes:
     """The share of the load that one pair of teeth carries while it crosses its path of contact, the colours in turn.
 
@@ -236,14 +250,19 @@ def load_shares(
     for k, (name, mesh) in enumerate(meshes.items()):
         time = np.concatenate([mesh.phase + period for period in range(len(mesh.load_share))])
         share = mesh.load_share.ravel()
-        ax.plot(time[share > 0.0], share[share > 0.0], color=colours[k % len(colours)], label=name)
+        line = look_of(Line2D, look, color=legible(ax, colours[k % len(colours)]), label=name)
+        ax.plot(time[share > 0.0], share[share > 0.0], **line)
     ax.set(xlabel=SINCE_ENTRY, ylabel="share of the load", ylim=(0.0, 1.05))
     return ax
 
 
 @checked
 def under_load(
-    meshes: Mapping[str, LoadedMesh], axes: Sequence[Axes], *, colours: Sequence[str] = (INK, "#D55E00", "#009E73")
+    meshes: Mapping[str, LoadedMesh],
+    axes: Sequence[Axes],
+    *,
+    colours: Sequence[str] = (INK, "#D55E00", "#009E73"),
+    **look: Any,
 ) -> list[Axes]:
     """Meshes under their loads over one mesh period: approach, stiffness and the share of each pair of teeth.
 
@@ -267,21 +286,22 @@ def under_load(
     ('approach (µm)', [1, 1, 2])
     """
     for k, (name, loaded) in enumerate(meshes.items()):
-        mesh, colour = loaded.mesh, colours[k % len(colours)]
+        mesh = loaded.mesh
+        line = look_of(Line2D, look, color=legible(axes[0], colours[k % len(colours)]), label=name)
         for ax, values in zip(axes, (loaded.approach_um, loaded.stiffness_n_per_m * per_width(mesh)), strict=False):
-            ax.plot(mesh.phase, values, color=colour, label=name)
+            ax.plot(mesh.phase, values, **line)
         for share in loaded.load_share:
-            axes[2].plot(mesh.phase, np.where(share > 0.0, share, np.nan), color=colour)
+            axes[2].plot(mesh.phase, np.where(share > 0.0, share, np.nan), **{**line, "label": None})
     for ax, ylabel in zip(axes, ("approach (µm)", LABEL_STIFFNESS, "share of the load"), strict=True):
         ax.set(ylabel=ylabel, xlim=(0.0, 1.0), ylim=(0.0, None))
     axes[-1].set(xlabel=axis_label("tau"), ylim=(0.0, 1.05))
     if len(meshes) > 1:
-        axes[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=len(meshes))
+        add_legend(axes[0], columns=len(meshes), loc="lower left", bbox_to_anchor=(0.0, 1.0))
     return list(axes)
 
 
 @checked
-def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Sequence[Axes]) -> list[Axes]:
+def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Sequence[Axes], **look: Any) -> list[Axes]:
     """Compliance of one tooth and its gear body: the fast curve, finite elements, and how far apart they are.
 
     The first has the curve and one line of points for each measure, the second one line for each measure.
@@ -306,15 +326,15 @@ def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Seq
     upper, lower = axes
     unit = body.body.material.youngs_modulus_gpa * 1e9 * mesh.pair.contact_width_mm * 1e-3
     fast = unit * sum(v for name, v in mesh.compliance_m_per_n.items() if name.startswith(body.who))
-    upper.plot(mesh.path, fast, color=INK, label="potential energy and foundation formula")
+    upper.plot(mesh.path, fast, color=legible(upper, INK), label="potential energy and foundation formula")
     lower.axhline(0.0, color=BOUNDARY, linewidth=0.7)
     for name, colour in zip(MEASURES, ("#D55E00", "#009E73", "#8A6D3B"), strict=True):
         marker, words = MEASURE_LOOKS[name]
-        look: dict[str, Any] = {"marker": marker, "markersize": 4.5, "color": colour, "label": words}
-        look["markerfacecolor"] = "white"
-        upper.plot(body.positions, body.compliance[name], linestyle="", **look)
+        usual: dict[str, Any] = {"marker": marker, "markersize": 4.5, "color": colour, "label": words}
+        dots = look_of(Line2D, look, markerfacecolor=paper(upper), **usual)
+        upper.plot(body.positions, body.compliance[name], **{**dots, "linestyle": ""})
         deviation = np.interp(body.positions, mesh.path, fast) / body.compliance[name] - 1.0
-        lower.plot(body.positions, 100.0 * deviation, linewidth=0.8, **look)
+        lower.plot(body.positions, 100.0 * deviation, **{"linewidth": 0.8, **dots})
     reach = (-0.03, mesh.contact_ratio + 0.03)
     upper.set(ylabel=r"compliance $\times\, E b$", xlim=reach, ylim=(0.0, None))
     lower.set(xlabel=SINCE_ENTRY, ylabel="deviation (%)", xlim=reach)

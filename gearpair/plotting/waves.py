@@ -1,9 +1,14 @@
 """The stiffness wave."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import StepPatch
 
 from gearpair._checks import check_count, checked
+from gearpair.plotting.paper import legible, look_of
 from gearpair.plotting.style import BOUNDARY, INK, new_axes, note
 from gearpair.quantities import axis_label
 from gearpair.stiffness import StiffnessWave
@@ -15,9 +20,8 @@ def stiffness_wave(
     ax: Axes | None = None,
     *,
     n_periods: int = 2,
-    colour: str = INK,
-    label: str | None = None,
     mean: bool = True,
+    **look: Any,
 ) -> Axes:
     """The staircase over some mesh periods, and its mean as a dashed line.
 
@@ -28,7 +32,9 @@ def stiffness_wave(
     """
     n_periods, ax = check_count("n_periods", n_periods), new_axes(ax, 2.6)
     edges = np.concatenate([np.add(wave.edges, k) for k in range(n_periods)] + [[float(n_periods)]])
-    ax.stairs(np.tile(wave.levels, n_periods), edges, baseline=None, linewidth=1.8, color=colour, label=label)
+    usual = look_of(StepPatch, look, linewidth=1.8, color=legible(ax, INK))
+    colour = usual.get("edgecolor", usual["color"])
+    ax.stairs(np.tile(wave.levels, n_periods), edges, baseline=None, **usual)
     if mean:
         ax.axhline(wave.mean, color=colour, linestyle="--", linewidth=1.0)
         shift, va = (-3, "top") if wave.mean < 1.0 else (3, "bottom")
@@ -42,10 +48,7 @@ def stiffness_wave(
 
 
 @checked
-def harmonics(
-    wave: StiffnessWave, n: int, ax: Axes | None = None, *, colour: str = INK, label: str | None = None,
-    offset: float = 0.0,
-) -> Axes:  # fmt: skip
+def harmonics(wave: StiffnessWave, n: int, ax: Axes | None = None, *, offset: float = 0.0, **look: Any) -> Axes:
     """Amplitudes ``2 |c_m|`` of the first `n` harmonics of the mesh frequency, as stems.
 
     Parameters
@@ -63,8 +66,9 @@ def harmonics(
     n, ax = check_count("n", n), new_axes(ax, 2.6)
     order = np.arange(1, n + 1)
     amplitude = 2.0 * np.abs(wave.harmonics(n)[1:])
-    ax.vlines(order + offset, 0.0, amplitude, color=colour, linewidth=1.4)
-    ax.plot(order + offset, amplitude, "o", markersize=4, color=colour, label=label)
+    dots = look_of(Line2D, look, linestyle="", marker="o", markersize=4, color=legible(ax, INK))
+    ax.vlines(order + offset, 0.0, amplitude, color=dots["color"], linewidth=dots.get("linewidth", 1.4))
+    ax.plot(order + offset, amplitude, **dots)
     ax.set(xlabel="harmonic $m$ of the mesh frequency", ylabel=r"amplitude $2|c_m|$")
     ax.set_xticks(order)
     ax.set_ylim(bottom=0.0)

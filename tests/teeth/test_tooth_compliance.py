@@ -161,7 +161,7 @@ def test_twist_is_that_of_a_ring_between_bore_and_rim() -> None:
 
 
 def test_body_of_a_large_gear_yields_with_the_logarithm_of_its_teeth() -> None:
-    """Each factor e in the number of teeth adds 2 / pi, as a half-plane's displacement grows with the depth it is held at."""
+    """Each factor e in the number of teeth adds 2 / pi, as a half-plane yields with the depth it is held at."""
     rolls, yielding = 0.364, []
     for teeth in (1500, 3000, 10**6):
         tooth = ToothProfile(SpurPair(28, teeth).gear)
