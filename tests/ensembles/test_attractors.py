@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import gearpair as gp
 from gearpair import ensembles, motion
+from gearpair.ensembles.chaos import neighbours
 from gearpair.ensembles.labelling import ESCAPES, LINGERS, UNKNOWN, numbers_of
 from gearpair.motion.same_orbit import lies_on
 from tests.support import always_in_contact
@@ -42,7 +43,8 @@ def test_a_label_is_where_the_motion_settles(found):
         if label >= 0:
             own = found.by_number[label]
             assert (state.status, state.period) == (own.status, own.period)
-            assert state.period is None or lies_on(state.points[0], own.points)
+            if state.period:
+                np.testing.assert_allclose(own.points, state.points, rtol=1e-6, atol=1e-6)
         elif label == ESCAPES:
             assert state.status == "escaped"
         elif label == LINGERS:
@@ -206,6 +208,28 @@ def test_what_was_seen_of_chaos_counts_for_basins():
     seen = sum(int(rate.watched_periods) for rate in found.sets.rates)
     assert int(known.set_watched_periods.sum()) == int(alone.set_watched_periods.sum()) + seen
     np.testing.assert_array_equal(known.status == "transient", known.status != "periodic")
+
+
+def test_further_starts_do_not_count_what_was_seen_twice():
+    osc = CASES["transient chaos"]
+    found = gp.attractors(osc, 60)
+    more = found.including(X, 0.5)
+    whole = gp.attractors(osc, starts=more.starts)
+    for name in ("motions", "watched", "periods", "escapes"):
+        assert getattr(more.sets.observed, name).sum() == getattr(whole.sets.observed, name).sum()
+
+
+def test_chaos_that_is_known_to_last_is_not_watched_again():
+    found = gp.attractors(CASES["chaos"], 200)
+    plane = gp.basins(found.oscillator, X, V, attractors=found)
+    still = plane.lasted.values[plane.status == "aperiodic"]
+    assert still.size > 20 and np.all(still == found.settings.before_watch(found.oscillator))
+
+
+def test_a_neighbour_differs_by_one_at_most():
+    marks = np.array([[0, 0, 0], [5, 5, 5]])
+    assert neighbours(marks, np.array([[1, -1, 1], [4, 5, 5], [2, 0, 0], [5, 5, 5]])).tolist() == [0, 1, -1, 1]
+    assert neighbours(marks[:0], marks).tolist() == [-1, -1]
 
 
 @given(st.floats(0.02, 1.2), st.floats(0.01, 0.4), st.floats(0.3, 1.9), st.integers(0, 1000))
