@@ -11,7 +11,6 @@ from gearpair.teeth import gear_body
 from gearpair.teeth.compliance import (
     foundation_coefficients,
     foundation_compliance,
-    ring_foundation,
     root_load,
     tooth_compliance,
 )
@@ -161,14 +160,10 @@ def test_twist_is_that_of_a_ring_between_bore_and_rim() -> None:
 
 
 def test_body_of_a_large_gear_yields_with_the_logarithm_of_its_teeth() -> None:
-    """Each factor e in the number of teeth adds 2 / pi, as a half-plane yields with the depth it is held at."""
-    rolls, yielding = 0.364, []
-    for teeth in (1500, 3000, 10**6):
-        tooth = ToothProfile(SpurPair(28, teeth).gear)
-        ring = ring_compliance(tooth.radius_ratio, tooth.clamp_half_angle, 0.0, NU, twist=False)
-        yielding.append(float(ring_foundation(tooth, rolls, ring)))
-    assert yielding[1] - yielding[0] == pytest.approx(2 / math.pi * math.log(2), rel=2e-3)
-    assert yielding[2] - yielding[1] == pytest.approx(2 / math.pi * math.log(1e6 / 3000), rel=2e-3)
+    """Each factor e adds 2 / pi, as the displacement of a half-plane grows with the depth at which it is held."""
+    rings = [ring_compliance(3.0, 1.5 / teeth, 0.0, NU, twist=False) for teeth in (1500, 3000, 10**6)]
+    for k, ratio in enumerate((2.0, 1e6 / 3000)):
+        assert np.diag(rings[k + 1] - rings[k])[:2] == pytest.approx(2 / math.pi * math.log(ratio), rel=1e-4)
 
 
 def test_groups_of_orders_stand_for_their_terms(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -177,7 +172,7 @@ def test_groups_of_orders_stand_for_their_terms(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(gear_body, "_orders", lambda *_: (np.arange(18_001.0), np.ones(18_001)))
     each = ring_compliance(3.0, 0.002, angles, NU)
     assert grouped[..., :2, :2] == pytest.approx(each[..., :2, :2], rel=1e-4, abs=1e-5)
-    assert grouped == pytest.approx(each, rel=1e-4, abs=1e-3)
+    assert grouped == pytest.approx(each, rel=1e-3, abs=1e-3)
 
 
 def test_solid_disc_by_its_energy() -> None:
