@@ -8,18 +8,12 @@ from typing import Any, Self
 
 import numpy as np
 
-from gearpair._checks import check_class, check_count, check_fields, check_number, checked, is_number
-from gearpair.oscillator import (
-    Harmonic,
-    Oscillator,
-    ShaftOrder,
-    check_harmonics,
-    check_shaft_orders,
-    summed_harmonics,
-)
+from gearpair._checks import check_count, check_fields, check_number, checked, is_number
+from gearpair.harmonics import Harmonic, ShaftOrder, check_harmonics, check_shaft_orders, summed_harmonics
+from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
-from gearpair.teeth import GearBlank, LoadedMesh, MeshStiffness, SpurPair, TipRelief, loaded_mesh, mesh_stiffness
-from gearpair.teeth import error_harmonics as harmonics_of
+from gearpair.teeth import GearBlank, LoadedMesh, MeshStiffness, SpurPair, TipRelief, loaded_mesh
+from gearpair.teeth.drawing import drawn_fields, loaded_fields
 from gearpair.teeth.meshing import Coupling
 
 LIMITS: dict[str, dict[str, float]] = {
@@ -30,7 +24,6 @@ LIMITS: dict[str, dict[str, float]] = {
     **dict.fromkeys(("pinion_torque_nm", "error_phase_rad"), {}),
 }
 SOLID = GearBlank()
-PROFILE_HARMONICS = 12  # that stand for the error of relieved tips
 Error = float | Sequence[Harmonic | tuple[int, float, float]]
 
 
@@ -73,7 +66,7 @@ class GearDrive:
         in radians, as `Harmonic`. Where `error_phase_rad` is unknown, they hold for a first phase of 0.
     shaft_orders : sequence of (teeth, amplitude, phase, order)
         Run-out and other errors that repeat with a wheel's revolution: its number of teeth, amplitude in micrometres,
-        phase in radians and waves a revolution (one, if left out), as `gearpair.oscillator.ShaftOrder`.
+        phase in radians and waves a revolution (one, if left out), as `ShaftOrder`.
     profile_harmonics : sequence of (order, amplitude, phase)
         What the shape of the drive flanks adds to it, orders from 1; set by `from_pair` for a relief.
     relief, mesh, pinion_blank, gear_blank : TipRelief, MeshStiffness, GearBlank and GearBlank, optional
@@ -184,10 +177,10 @@ class GearDrive:
         >>> round(osc.damping_ratio, 12), round(osc.error_amplitude, 12), round(osc.stiffness.mean, 12)
         (0.05, 0.125, 1.0)
         """
-        drawn = _drawn(pair, coupling, {"pinion": pinion_blank or SOLID, "gear": gear_blank or SOLID})
+        drawn = drawn_fields(pair, coupling, {"pinion": pinion_blank or SOLID, "gear": gear_blank or SOLID})
         drive = cls(
             **drawn,
-            **_under_load(drawn["mesh"], relief, pinion_torque_nm, n_levels),
+            **loaded_fields(drawn["mesh"], relief, pinion_torque_nm, n_levels),
             pinion_torque_nm=pinion_torque_nm,
             pinion_speed_rpm=pinion_speed_rpm,
             backlash_um=backlash_um,
@@ -261,9 +254,9 @@ class GearDrive:
         if drawing:
             pair, coupling = drawing.pop("pair", mesh.pair), drawing.pop("coupling", mesh.coupling)
             blanks = {who: drawing.pop(f"{who}_blank", getattr(self, f"{who}_blank")) for who in ("pinion", "gear")}
-            drawn |= _drawn(pair.replace(**drawing), coupling, blanks)
+            drawn |= drawn_fields(pair.replace(**drawing), coupling, blanks)
         torque = changes.get("pinion_torque_nm", self.pinion_torque_nm)
-        return drawn | _under_load(drawn.get("mesh", mesh), relief, torque, n_levels) | changes
+        return drawn | loaded_fields(drawn.get("mesh", mesh), relief, torque, n_levels) | changes
 
     def _error(self, given: Error) -> dict[str, Any]:
         """The fields of a transmission error from its amplitude, or from all its harmonics."""
@@ -412,31 +405,6 @@ class GearDrive:
 def _scaled(orders: Sequence[ShaftOrder], unit: float) -> tuple[ShaftOrder, ...]:
     """Errors of shafts in other units."""
     return tuple(each._replace(amplitude=each.amplitude * unit) for each in orders)
-
-
-def _drawn(pair: SpurPair, coupling: Coupling, blanks: dict[str, GearBlank | None]) -> dict[str, Any]:
-    """The fields of a drive that follow from a drawing alone; an inertia where there is a blank."""
-    drawn: dict[str, Any] = {"pinion_teeth": pair.pinion_teeth, "mesh": mesh_stiffness(pair, coupling=coupling)}
-    for who, gear in (("pinion", pair.pinion), ("gear", pair.gear)):
-        drawn |= {f"{who}_base_radius_mm": gear.base_radius_mm, f"{who}_blank": (blank := blanks[who])}
-        if blank is not None:
-            drawn[f"{who}_inertia_kg_m2"] = blank.inertia_kg_m2(gear)
-    return drawn
-
-
-def _under_load(mesh: MeshStiffness, relief: TipRelief | None, torque_nm: float, n_levels: int) -> dict[str, Any]:
-    """The fields of a drive that follow from a mesh, with relieved tips under a torque."""
-    if relief is None:
-        return {"mean_stiffness_n_per_um": mesh.mean * 1e-6, "stiffness": mesh.wave(n_levels), "relief": None}
-    check_class("relief", relief, TipRelief)
-    force = abs(check_number("pinion_torque_nm", torque_nm)) / (mesh.pair.pinion.base_radius_mm * 1e-3)
-    loaded = loaded_mesh(mesh, relief.deviation_um(mesh), force)
-    return {
-        "mean_stiffness_n_per_um": loaded.mean * 1e-6,
-        "stiffness": loaded.wave(n_levels),
-        "profile_harmonics": harmonics_of(loaded.error_um, PROFILE_HARMONICS),
-        "relief": relief,
-    }
 
 
 FIELDS = tuple(each.name for each in dataclasses.fields(GearDrive))

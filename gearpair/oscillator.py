@@ -3,47 +3,26 @@
 from __future__ import annotations
 
 import ast
-import cmath
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from difflib import get_close_matches
 from functools import cached_property
-from typing import Any, NamedTuple, Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearpair._checks import check_array, check_class, check_count, check_fields, check_number, checked, plain, shown
+from gearpair._checks import check_array, check_class, check_fields, check_number, checked, plain, shown
 from gearpair._flow.cells import Cells, Coefficients, build_cells
+from gearpair.harmonics import Harmonic, ShaftOrder, check_harmonics, check_shaft_orders
 from gearpair.quantities import ROWS, Part, part_of
 from gearpair.stiffness import Rectangle, StiffnessWave
 
-LARGEST_ORDER = 200  # of a harmonic: the cells of a period are as many times ten
 LARGEST_DAMPING_RATIO = 100.0
 LARGEST_MESH_FREQUENCY = 1e6
 MOST_TURNS = 1e6  # of the fastest rate in a base period, in radians: the tables of a period are as long
 MOST_MESH_PERIODS = 10_000  # in a base period
-
-
-class Harmonic(NamedTuple):
-    """A harmonic of the transmission error, ``amplitude * sin(order * Omega tau + phase)``."""
-
-    order: int  # multiple of the mesh frequency
-    amplitude: float  # over half the backlash in an `Oscillator`, in micrometres in a `GearDrive`
-    phase: float = 0.0  # at the start of a mesh period, in radians
-
-
-class ShaftOrder(NamedTuple):
-    """An error that repeats with a wheel's revolution, ``amplitude * sin(order * Omega tau / teeth + phase)``.
-
-    Run-out has the order 1, an oval wheel 2; pitch errors have many.
-    """
-
-    teeth: int  # of the wheel that has it: mesh periods of its revolution
-    amplitude: float  # over half the backlash in an `Oscillator`, in micrometres in a `GearDrive`
-    phase: float = 0.0  # at the start of a base period, in radians
-    order: int = 1  # waves in a revolution
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -138,6 +117,12 @@ class Oscillator:
                 f"mesh_frequency must be at least {slowest:.3g} at this damping ratio and these stiffness levels"
                 f"{shafts} (a millionth of their rate), got {self.mesh_frequency}"
             )
+
+    def __repr__(self) -> str:
+        """The call that makes it; options that are left at what they usually are do not appear."""
+        shown = {each.name: getattr(self, each.name) for each in fields(self)}
+        told = (f"{name}={value!r}" for name, value in shown.items() if name not in RARE or value != RARE[name])
+        return f"{type(self).__name__}({', '.join(told)})"
 
     @property
     def mesh_period(self) -> float:
@@ -365,58 +350,13 @@ def _built(node: ast.expr, classes: Mapping[str, Any]) -> Any:
         raise TypeError("neither a constant nor a part of an oscillator") from error
 
 
-def check_harmonics(name: str, harmonics: Any, lowest: int = 2) -> tuple[Harmonic, ...]:
-    """`harmonics` of orders from `lowest` as named tuples, or a ValueError that says which is wrong."""
-    checked: list[Harmonic] = []
-    if isinstance(harmonics, (str, bytes)) or not isinstance(harmonics, Iterable):
-        raise ValueError(f"{name} must be a sequence of (order, amplitude, phase), got {harmonics!r}")
-    for i, each in enumerate(harmonics):
-        if np.shape(each) not in ((2,), (3,)):
-            raise ValueError(f"{name}[{i}] must be (order, amplitude, phase), got {each!r}")
-        given = Harmonic(*each)
-        order = check_count(f"{name}[{i}] order", given.order, at_least=lowest)
-        check_number(f"{name}[{i}] order", order, at_most=LARGEST_ORDER)
-        amplitude = check_number(f"{name}[{i}] amplitude", given.amplitude, at_least=0.0)
-        checked.append(Harmonic(order, amplitude, check_number(f"{name}[{i}] phase", given.phase)))
-    return tuple(checked)
-
-
-def check_shaft_orders(name: str, given: Any) -> tuple[ShaftOrder, ...]:
-    """Errors of shafts as named tuples, or a ValueError that says which is wrong."""
-    form = "(teeth, amplitude, phase, order)"
-    if isinstance(given, (str, bytes)) or not isinstance(given, Iterable):
-        raise ValueError(f"{name} must be a sequence of {form}, got {shown(given)}")
-    found: list[ShaftOrder] = []
-    for i, each in enumerate(given):
-        if np.shape(each) not in ((2,), (3,), (4,)):
-            raise ValueError(f"{name}[{i}] must be {form}, got {shown(each)}")
-        teeth, amplitude, phase, order = ShaftOrder(*each)
-        found.append(
-            ShaftOrder(
-                check_count(f"{name}[{i}] teeth", teeth),
-                check_number(f"{name}[{i}] amplitude", amplitude, at_least=0.0),
-                check_number(f"{name}[{i}] phase", phase),
-                check_count(f"{name}[{i}] order", order),
-            )
-        )
-        check_number(f"{name}[{i}] order", found[-1].order, at_most=LARGEST_ORDER * found[-1].teeth)
-    return tuple(found)
-
-
-def summed_harmonics(*harmonics: Harmonic) -> tuple[Harmonic, ...]:
-    """One harmonic for each order: those of one order added as phasors."""
-    sums: dict[int, complex] = {}
-    for order, amplitude, phase in harmonics:
-        sums[order] = sums.get(order, 0.0) + cmath.rect(amplitude, phase)
-    return tuple(Harmonic(order, *cmath.polar(each)) for order, each in sorted(sums.items()))
-
-
 PARTS = {  # of the repr of an oscillator
     "StiffnessWave": StiffnessWave,
     "Rectangle": Rectangle,
     "Harmonic": Harmonic,
     "ShaftOrder": ShaftOrder,
 }
+RARE = {"flight_damping": None, "shaft_orders": ()}  # not in the repr, so that older results name the same oscillator
 WHOLE = ("stiffness", "harmonics", "shaft_orders")  # the fields that are no scalars
 SCALARS = tuple(f.name for f in fields(Oscillator) if f.name not in WHOLE)
 WAVE_SCALARS = ("contact_ratio", "a", "b")

@@ -11,8 +11,9 @@ from gearpair._checks import check_number, checked
 from gearpair._flow.cells import Cells, build_cells
 from gearpair._flow.closed_form import PHASE
 from gearpair._flow.walk import OK
+from gearpair.harmonics import Harmonic
 from gearpair.motion.trajectories import mapped, walked
-from gearpair.oscillator import Harmonic, Oscillator
+from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
 
 

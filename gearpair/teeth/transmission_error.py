@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_array, check_count, check_fields, check_number, checked
-from gearpair.oscillator import LARGEST_ORDER, Harmonic, ShaftOrder
+from gearpair.harmonics import LARGEST_ORDER, Harmonic, ShaftOrder
 from gearpair.teeth.meshing import MeshStiffness
 
 Array = NDArray[np.float64]
