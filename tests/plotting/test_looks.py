@@ -253,7 +253,9 @@ def test_lines_and_words_are_seen_on_light_and_dark(name, style):
             notes = [] if name in BY_STATE else ax.texts  # some in the colour of their curve
             assert all(contrast(to_rgb(text.get_color()), ground) > 2.0 for text in notes if text.get_text())
             for artist in (*ax.lines, *parts([ax], LineCollection)):
-                assert max(contrast(colour, ground) for colour in shown(artist)) > 1.4, artist
+                assert max(contrast(colour, ground) for colour in shown(artist)) > (
+                    2.5 if style == "dark_background" else 1.4
+                )
         for legend in legends(axes):
             face = to_hex(legend.get_frame().get_facecolor())
             assert all(contrast(text.get_color(), face) > 3.0 for text in legend.get_texts())
