@@ -60,8 +60,6 @@ def passage(oscillators: Sequence[Oscillator], x: float, v: float, *, samples_pe
 
     Examples
     --------
-    Past the resonance at .7 in 200 mesh periods, from the quiet motion below it:
-
     >>> from gearpair.motion import steady_state
     >>> osc = Oscillator(mesh_frequency=0.5, error_amplitude=0.05)
     >>> x, v = steady_state(osc).points[0]

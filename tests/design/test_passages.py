@@ -66,7 +66,7 @@ def test_a_fast_ramp_is_late() -> None:
         up = run_up(DRIVE, 6200.0, 11_000.0, seconds, accelerates=False)
         found.append(float(up.speed[up.x_min.values < 1.0][0]))
     assert lost[0] > lost[1] > lost[2]
-    assert found[0] < found[1] < found[2]
+    assert found[2] > found[0] + 5.0 and abs(found[1] - found[0]) < 1.0  # the jump up is abrupt
     assert lost[0] - lost[2] > 100.0
 
 

@@ -24,6 +24,7 @@ from gearpair.plotting.paper import contrast, paper
 OSC = gp.Oscillator()
 MESHES = {"34 and 34 teeth": gp.mesh_stiffness(gp.SpurPair(), n_phases=50)}
 (MESH,) = MESHES.values()
+LOADED = gp.teeth.loaded_mesh(MESH, gp.teeth.tip_relief(MESH, 20.0, 20.0, 0.4), 2000.0)
 STYLES = ("default", "dark_background")
 PLANE = {"x": np.linspace(-3.0, 3.0, 25), "v": np.linspace(-2.0, 2.0, 9)}
 SPEEDS = np.linspace(2000.0, 6000.0, 9)
@@ -139,6 +140,7 @@ OF_THEIR_OWN = {
     "portrait": lambda **k: plotting.portrait(made("state"), **k),
     "stiffness_trends": lambda **k: plotting.stiffness_trends(published.STIFFNESS_TABLE, {}, rows(3), **k),
     "tooth_loads": lambda **k: plotting.tooth_loads(made("chart"), tuple(rows(2)), **k),
+    "under_load": lambda **k: plotting.under_load({"2 kN": LOADED}, rows(3), **k),
 }
 CALLS = {name: lambda call=call, **k: [call(None, **k)] for name, call in ON_AXES.items()} | OF_THEIR_OWN
 IMAGES = {"basins", "finite_exponents", "impact_map", "impact_states", "period_map", "quantity_map"}
