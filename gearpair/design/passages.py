@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -187,11 +188,11 @@ def schedule(
     mean_force = cycles.torque / (drive.pinion_base_radius_mm * 1e-3)
     if accelerates:
         mean_force = mean_force + inertia_force_n(drive, cycles.acceleration)
-    meshing = [under_torque(drive, torque) for torque in cycles.torque.tolist()]
+    meshing = cache(partial(under_torque, drive))
     frequencies, forces = cycles.speed / drive.resonance_rpm, mean_force / unit
     oscillators = [
-        each.replace(mesh_frequency=frequency, mean_force=force)
-        for each, frequency, force in zip(meshing, frequencies.tolist(), forces.tolist(), strict=True)
+        meshing(torque).replace(mesh_frequency=frequency, mean_force=force)
+        for torque, frequency, force in zip(cycles.torque.tolist(), frequencies.tolist(), forces.tolist(), strict=True)
     ]
     state = start or steady_state(oscillators[0])
     x, v = state.points[0].tolist()
