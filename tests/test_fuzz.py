@@ -31,6 +31,7 @@ def made(name):
         "double": lambda: gp.steady_state(OSC, -2.3365, 1.5426),
         "drive": lambda: drive,
         "flip": lambda: made("branch").bifurcations[0],
+        "loads": lambda: gp.design.load_map(drive, [50.0, 100.0], SPEEDS, n_starts=0, locate_jumps=False),
         "map": lambda: gp.parameter_map(
             OSC, {"damping_ratio": [0.1, 0.2], "mesh_frequency": [0.6, 0.7]}, measures=True
         ),
@@ -121,6 +122,7 @@ CALLS = {
         "manifolds": lambda: {"orbit": gp.periodic_orbit(OSC, -1.5688, -1.0135, 1), "length": 1.0, "spacing": 0.1},
     },
     "design": {
+        "duty_cycle": lambda: {"found": made("loads"), "points": [(60.0, 3000.0, 1.0)]},
         "find_jumps": lambda: {"up": made("up"), "down": made("up")},
         "idle_oscillator": lambda: {"drive": made("drive"), "speed_rpm": 800.0, **SWING},
         "idle_rattle": lambda: {"drive": made("drive"), "speeds_rpm": [800.0, 900.0], **SWING},
@@ -131,6 +133,13 @@ CALLS = {
             "profile_um": 8.0,
         },
         "linear_response": lambda: {"osc": OSC},
+        "load_map": lambda: {
+            "drive": made("drive"),
+            "torques_nm": [50.0, 100.0],
+            "speeds_rpm": SPEEDS,
+            "n_starts": 1,
+            "n_transient": 20,
+        },
         "measure_motion": lambda: {"drive": made("drive"), "state": made("state")},
         "speed_chart": lambda: {"drive": made("drive"), "speeds_rpm": SPEEDS, "n_starts": 1, "n_transient": 20},
         "speed_range_table": lambda: {"ranges": gp.design.speeds_to_avoid(made("chart"))},
