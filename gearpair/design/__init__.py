@@ -1,4 +1,4 @@
-"""A real drive over its speeds and loads: chart and map, what changes them, the standard's factor, rattle without load."""
+"""A real drive over its speeds and loads: chart and map, what changes them, the standard's factor, idle rattle."""
 
 from gearpair.design.charts import speed_chart
 from gearpair.design.dynamic_factor import IsoDynamicFactor, iso_dynamic_factor

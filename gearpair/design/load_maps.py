@@ -80,9 +80,7 @@ def load_map(
     columns["mesh_force"] = [_largest_force(each) for each in charts]
     columns |= {name: [each[name].values for each in charts] for name in ("loss", "worst_phase")}
     columns |= {name: [each[name].sel(run="worst").values for each in charts] for name in OF_THE_WORST}
-    variables: dict[str, Any] = {
-        name: (plane, np.array(values), attributes(name)) for name, values in columns.items()
-    }
+    variables: dict[str, Any] = {name: (plane, np.array(values), attributes(name)) for name, values in columns.items()}
     runs = ["up", "down"]
     jumps = np.array([each.jump_speed.sel(run=runs).values for each in charts])
     variables["jump_speed"] = (("torque", "run", "speed"), jumps, attributes("jump_speed"))
@@ -142,9 +140,7 @@ def duty_cycle(found: xr.Dataset, points: Sequence[tuple[float, float, float]]) 
     import xarray as xr  # here, so that importing gearpair stays quick
 
     columns = {"torque": given[:, 0], "speed": given[:, 1], "time_share": shares, **values, "loss": np.array(losses)}
-    variables: dict[str, Any] = {
-        name: ("point", column[order], attributes(name)) for name, column in columns.items()
-    }
+    variables: dict[str, Any] = {name: ("point", column[order], attributes(name)) for name, column in columns.items()}
     worst = {
         "worst_dynamic_factor": np.fmax.reduce(values["dynamic_factor"]),
         "worst_mesh_force": np.fmax.reduce(values["mesh_force"]),

@@ -14,7 +14,7 @@ from matplotlib.patheffects import withStroke
 
 from gearpair._checks import checked
 from gearpair.design import IdleRattle, IsoDynamicFactor
-from gearpair.design.found import ALWAYS, BOTH, FLOAT, KEPT, LOSSES
+from gearpair.design.found import BOTH, FLOAT, HISTORY, KEPT, LOSSES, RARE
 from gearpair.design.sensitivities import OUTCOMES
 from gearpair.plotting.maps import ENDS, HEIGHT, IMPACT_COLOURS, impact_colours, name_colours
 from gearpair.plotting.paper import legible, look_of, paper
@@ -29,12 +29,12 @@ BAND = "#E9E4DA"  # over the phases
 LEAP = 0.25  # change from one speed to the next, of the largest factor, that is drawn as a jump
 LANE = 0.36  # height of a bar of a tornado, whose rows are 1 apart
 STRIP = 0.07  # height of a run's strip of impact states, in shares of the axes
-# What is outlined in a map of loads: from which loss of contact on, and how.
+# What is outlined in a map of loads, from which loss of contact on, and how; and what is dotted.
 OUTLINES: Mapping[str, tuple[str, Any]] = {
-    "the teeth may part": (FLOAT, (0, (1.2, 1.2))),
-    "they part, however reached": (ALWAYS, "-"),
-    "both flanks are struck": (BOTH, (0, (6.0, 1.5))),
+    "the teeth may part": (FLOAT, "-"),
+    "both flanks are struck": (BOTH, (0, (4.0, 1.2))),
 }
+IN_SOME = {RARE, HISTORY}
 CHANGES: Mapping[str, str] = {
     "pinion_torque_nm": "torque",
     "backlash_um": "backlash",
@@ -186,10 +186,10 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes], **look: Any) -> tupl
 
 @checked
 def load_map(found: xr.Dataset, ax: Axes | None = None, *, largest: float | None = None, **look: Any) -> Axes:
-    """The largest dynamic factor over speed and torque, and outlines of where contact is lost, and how.
+    """The largest dynamic factor over speed and torque, and outlines of where the teeth part, or strike both flanks.
 
-    An image and its colour bar, logarithmic, and a collection of lines for each way of losing contact that is met; a
-    point without a torque has no factor and stays blank.
+    An image and its colour bar, logarithmic, a collection of lines for each outline, and dots where the teeth part in
+    some of the motions alone. A point without a torque has no factor and stays blank.
 
     Parameters
     ----------
@@ -205,7 +205,7 @@ def load_map(found: xr.Dataset, ax: Axes | None = None, *, largest: float | None
     ...     transmission_error_um=5.0, damping_ratio=0.08)
     >>> ax = load_map(gp.design.load_map(drive, [50.0, 100.0], [2000.0, 4000.0, 6000.0], n_starts=2))
     >>> ax.get_ylabel(), [text.get_text() for text in ax.get_legend().get_texts()]
-    ('torque of the pinion (N m)', ['the teeth may part', 'they part, however reached'])
+    ('torque of the pinion (N m)', ['the teeth may part'])
     """
     ax = new_axes(ax, HEIGHT)
     speed, torque, factor = found.speed.values, found.torque.values, found.dynamic_factor.values
@@ -216,21 +216,31 @@ def load_map(found: xr.Dataset, ax: Axes | None = None, *, largest: float | None
     ticks = [each for each in (1, 1.5, 2, 3, 5, 7, 10, 15, 20, 30, 50, 100) if each <= top]
     bar.set_ticks(ticks, labels=[f"{each:g}" for each in ticks], minor=False)
     bar.minorticks_off()
+    _outline_losses(ax, found.loss.values, speed, torque)
+    ax.set(xlabel=axis_label("speed"), ylabel=axis_label("torque"))
+    return ax
+
+
+def _outline_losses(ax: Axes, losses: np.ndarray, speed: np.ndarray, torque: np.ndarray) -> None:
+    """Lines about the points of a map at which contact is lost, dots where it is in some of the motions there."""
     order = (KEPT, *LOSSES)
-    kinds = np.array([[order.index(loss) for loss in row] for row in found.loss.values.tolist()])
-    ink, handles = legible(ax, INK), []
+    kinds = np.array([[order.index(loss) for loss in row] for row in losses.tolist()])
+    ink, around = legible(ax, INK), [withStroke(linewidth=2.9, foreground=paper(ax))]
+    handles = []
     for name, (first, style) in OUTLINES.items():
         lost = kinds >= order.index(first)
-        if not lost.any():
-            continue
-        usual: dict[str, Any] = {"color": ink, "linestyle": style, "linewidth": 1.3}
-        casing = [withStroke(linewidth=2.9, foreground=paper(ax))]
-        ax.add_collection(LineCollection(_borders(lost, speed, torque), path_effects=casing, label=name, **usual))
-        handles.append(Line2D([], [], label=name, **usual))
-    ax.set(xlabel=axis_label("speed"), ylabel=axis_label("torque"))
+        if lost.any():
+            line: dict[str, Any] = {"color": ink, "linestyle": style, "linewidth": 1.3, "label": name}
+            ax.add_collection(LineCollection(_borders(lost, speed, torque), path_effects=around, **line))
+            handles.append(Line2D([], [], **line))
+    rows, columns = np.nonzero(np.isin(losses, [*IN_SOME]))
+    if len(rows):
+        dots: dict[str, Any] = {"marker": "o", "markersize": 3.2, "markerfacecolor": ink, "linestyle": ""}
+        dots |= {"markeredgecolor": paper(ax), "markeredgewidth": 0.6, "label": "in some of several motions"}
+        handles += ax.plot(speed[columns], torque[rows], **dots)
     if handles:
-        add_legend(ax, handles, 3, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.3)
-    return ax
+        place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.3}
+        add_legend(ax, handles, 3, fontsize=8, columnspacing=1.2, **place)
 
 
 def _borders(inside: np.ndarray, x: np.ndarray, y: np.ndarray) -> list[list[tuple[float, float]]]:
