@@ -31,8 +31,9 @@ def example() -> dict[str, Any]:
 
 def outline(gear: SpurGear, centre: float, first: float) -> np.ndarray:
     """All teeth of a gear in mm, shape (2, n), about a centre on the x axis, the first tooth at an angle."""
-    across, along = plotting.tooth_outlines(gear, plt.figure().subplots(), roots=["trochoid"]).lines[-1].get_data()
+    tooth = plotting.tooth_outlines(gear, plt.figure().subplots(), roots=["trochoid"]).lines[-1]
     plt.close()
+    across, along = np.asarray(tooth.get_xdata(), float), np.asarray(tooth.get_ydata(), float)
     turns = first + 2.0 * np.pi * np.arange(gear.teeth) / gear.teeth
     points = (along + 1j * across) * gear.module_mm * np.exp(1j * turns)[:, None] + centre
     return np.array([points.real.ravel(), points.imag.ravel()])
@@ -62,7 +63,9 @@ def main() -> None:
         figure, ax = plt.subplots(figsize=(4.2, 3.2))
         draw_pair(names["drive"], ax)
         figure.savefig(PICTURES / "pair_drawing.png", dpi=150)
-        plotting.dynamic_factors(names["chart"]).figure.savefig(PICTURES / "speed_chart.png", dpi=150)
+        figure, ax = plt.subplots(figsize=(8.0, 4.6))
+        plotting.dynamic_factors(names["chart"], ax=ax)
+        figure.savefig(PICTURES / "speed_chart.png", dpi=150)
 
 
 if __name__ == "__main__":

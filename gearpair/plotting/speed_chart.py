@@ -73,7 +73,8 @@ def dynamic_factors(
     ax = new_axes(ax, 4.6)
     speed = chart.speed.values
     factor = chart.dynamic_factor
-    top = np.nanmax([np.nanmax(chart.factor_high.values, initial=1.2), 1.2])
+    top = float(np.nanmax(chart.factor_high.values, initial=1.2))
+    top = top if iso is None else float(np.nanmax(iso.k_v, initial=top))
     linear = chart.linear_factor.values  # cut off where the strips begin
     linear = np.where(linear < 0.8 + (top - 0.8) * 1.12, linear, np.nan)
     ax.plot(speed, linear, color=GREY, linewidth=1.0, label="linear response", zorder=1)
@@ -285,7 +286,7 @@ def tornado(
     (['damping ratio'], 2)
     """
     ax = new_axes(ax, 2.6)
-    values, base = found[outcome].values, float(found[f"base_{outcome}"])
+    values, base = found[outcome].values.round(9), round(float(found[f"base_{outcome}"]), 9)  # 1e-15 is none
     sorting = sort_by or outcome
     order = np.argsort(np.abs(found[sorting].values - float(found[f"base_{sorting}"])).max(axis=1).round(9))
     ends = {"lower": "#56B4E9", "higher": "#E69F00"}
@@ -296,7 +297,7 @@ def tornado(
             ax.barh(lane, values[k, end] - base, left=base, **bar)
             beyond = values[k, end] - base > -1e-9 * base  # or the same, up to rounding
             shift, ha = (3, "left") if beyond else (-3, "right")
-            told = f"{found.value.values[k, end]:.3g}"
+            told = f"{found.value.values[k, end]:.5g}"
             note(ax, told, (values[k, end], lane), (shift, 0), fontsize=7, va="center_baseline", ha=ha)
     ax.axvline(base, color=legible(ax, "#333333"), linewidth=0.9, zorder=3)
     names = [str(found.change.values[k]) for k in order]
