@@ -69,17 +69,39 @@ def plane(n: int) -> None:
     gp.parameter_map(gp.Oscillator(), axes)
 
 
+def drawn() -> gp.GearDrive:
+    """The chapter's pair, its error at a known phase."""
+    pair = gp.SpurPair(pinion_teeth=28, gear_teeth=57, face_width_mm=25.0)
+    error = [(1, 4.0, 0.0)]
+    return gp.GearDrive.from_pair(
+        pair, pinion_torque_nm=120.0, backlash_um=100.0, transmission_error_um=error, damping_ratio=0.05
+    )
+
+
 def chart(n: int) -> None:
     """The speed chart of a drawn pair: runs up and down, twelve starts a speed, jumps located."""
-    pair = gp.SpurPair(pinion_teeth=28, gear_teeth=57, face_width_mm=25.0)
-    drive = gp.GearDrive.from_pair(
-        pair, pinion_torque_nm=120.0, backlash_um=100.0, transmission_error_um=4.0,
-        damping_ratio=0.05,
-    )  # fmt: skip
-    gp.design.speed_chart(drive, np.linspace(1500.0, 13000.0, n), n_starts=12)
+    gp.design.speed_chart(drawn(), np.linspace(1500.0, 13000.0, n), n_starts=12)
 
 
-JOBS = {"diagram": diagram, "restarted": restarted, "grid": grid, "plane": plane, "chart": chart}
+def ramp(n: int) -> None:
+    """A drawn pair run up through its resonance in n mesh periods."""
+    gp.design.run_up(drawn(), 5000.0, 13000.0, n / (9000.0 / 60.0 * 28))
+
+
+def shocks(n: int) -> None:
+    """The smallest gap in the torque that throws a drawn pair, at n speeds."""
+    gp.design.shock_margin(drawn(), np.linspace(7000.0, 9500.0, n), n_starts=4)
+
+
+JOBS = {
+    "diagram": diagram,
+    "restarted": restarted,
+    "grid": grid,
+    "plane": plane,
+    "chart": chart,
+    "ramp": ramp,
+    "shocks": shocks,
+}
 
 
 def peak_mib() -> float:

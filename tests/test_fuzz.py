@@ -30,6 +30,7 @@ def made(name):
         "chart": lambda: gp.design.speed_chart(drive, SPEEDS, n_starts=2, locate_jumps=False),
         "double": lambda: gp.steady_state(OSC, -2.3365, 1.5426),
         "drive": lambda: drive,
+        "moving": lambda: drive.at_speed(2000.0),
         "flip": lambda: made("branch").bifurcations[0],
         "loads": lambda: gp.design.load_map(drive, [50.0, 100.0], SPEEDS, n_starts=0, locate_jumps=False),
         "map": lambda: gp.parameter_map(
@@ -62,6 +63,7 @@ CALLS = {
         "lyapunov_exponents": lambda: {"osc": OSC, "x": 1.0, "v": 0.0, "n_periods": 5},
         "motions_of": lambda: {"result": made("sweep")},
         "multipliers_of": lambda: {"monodromy": np.eye(2)},
+        "passage": lambda: {"oscillators": [OSC, OSC], "x": 1.0, "v": 0.0, "samples_per_period": 2},
         "periodic": lambda: {"period": 2},
         "spectrum": lambda: {"trajectory": made("motion")},
         "steady_state": lambda: {"osc": OSC, "x": 1.0, "v": 0.0, **QUICK},
@@ -113,6 +115,7 @@ CALLS = {
     "boundaries": {
         "at_phase": lambda: {"osc": OSC, "phase": 0.5},
         "backward_map": lambda: {"osc": OSC, "x": [0.0, 1.0], "v": 0.0, "n": 2},
+        "critical_dip": lambda: {"osc": OSC, "state": made("double"), "n_phases": 1, **QUICK},
         "critical_shock": lambda: {"osc": OSC, "state": made("double"), "n_phases": 1, "n_directions": 4, **QUICK},
         "edge_state": lambda: {"osc": OSC, "a": [-2.3365, 1.5426], "b": made("state"), "n_periods": 20},
         "homoclinic_tangency": lambda: {
@@ -133,6 +136,7 @@ CALLS = {
             "profile_um": 8.0,
         },
         "linear_response": lambda: {"osc": OSC},
+        "load_change": lambda: {"drive": made("moving"), "torque_nm": [(0.0, 50.0), (0.01, 100.0)], "seconds": 0.01},
         "load_map": lambda: {
             "drive": made("drive"),
             "torques_nm": [50.0, 100.0],
@@ -141,6 +145,11 @@ CALLS = {
             "n_transient": 20,
         },
         "measure_motion": lambda: {"drive": made("drive"), "state": made("state")},
+        "run_up": lambda: {"drive": made("drive"), "from_rpm": 2000.0, "to_rpm": 3000.0, "seconds": 0.01},
+        "schedule": lambda: {"drive": made("drive"), "seconds": 0.01, "speed_rpm": [(0.0, 2000.0), (0.01, 3000.0)]},
+        "sensitivity": lambda: {"drive": made("drive"), "speeds_rpm": SPEEDS, "ranges": {"damping_ratio": (0.1, 0.2)}},
+        "shock_margin": lambda: {"drive": made("drive"), "speeds_rpm": SPEEDS, "n_phases": 1, "n_starts": 1},
+        "sound": lambda: {"drive": made("drive"), "motion": made("state"), "seconds": 0.2, "rate": 4000},
         "speed_chart": lambda: {"drive": made("drive"), "speeds_rpm": SPEEDS, "n_starts": 1, "n_transient": 20},
         "speed_range_table": lambda: {"ranges": gp.design.speeds_to_avoid(made("chart"))},
         "speeds_to_avoid": lambda: {"chart": made("chart")},

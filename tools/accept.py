@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 import click
@@ -51,8 +52,19 @@ def stable_notebook(source: Path, executed: nbformat.NotebookNode) -> nbformat.N
     for cell, run in zip(notebook.cells, ran, strict=True):
         if cell.cell_type == "code":
             cell.execution_count = run.execution_count
-            cell.outputs = [stable for output in run.outputs if (stable := _stable_output(output)) is not None]
+            cell.outputs = _joined(each for output in run.outputs if (each := _stable_output(output)) is not None)
     return notebook
+
+
+def _joined(outputs: Iterable[nbformat.NotebookNode]) -> list[nbformat.NotebookNode]:
+    """What was printed in one go in one output, however many pieces it came in."""
+    joined: list[nbformat.NotebookNode] = []
+    for output in outputs:
+        if joined and output.output_type == joined[-1].output_type == "stream" and output.name == joined[-1].name:
+            joined[-1].text += output.text
+        else:
+            joined.append(output)
+    return joined
 
 
 def _stable_output(output: nbformat.NotebookNode) -> nbformat.NotebookNode | None:

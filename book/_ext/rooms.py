@@ -29,12 +29,13 @@ SAID = (
     (r"<factory>", "..."),
 )
 
-MODULES = ("oscillator", "stiffness", "drive", "quantities", "table", "parameters")
+MODULES = ("oscillator", "stiffness", "harmonics", "drive", "scales", "quantities", "table", "parameters")
 FOLDERS = (
     "teeth",
     "motion",
     "ensembles",
     "bifurcations",
+    "boundaries",
     "methods",
     "design",
     "article",

@@ -49,8 +49,8 @@ class HomoclinicTangency:
     parameter : str
     value : float
     error : float
-        Of the value: how far those of several images of the tangency differ; half of the range that is left, where
-        bracketed.
+        Of the value: how far those of several images of the tangency differ; where bracketed, half of the range that is
+        left, which leaves out how far the chords between the curves' points are off.
     crosses_above : bool
         Whether the manifolds cross above the value; else they do below it.
     orbit : PeriodicOrbit

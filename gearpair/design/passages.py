@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -12,7 +13,9 @@ from gearpair._checks import check_array, check_count, check_number, checked
 from gearpair.drive import GearDrive
 from gearpair.motion.passages import passage
 from gearpair.motion.steady import SteadyState, steady_state
+from gearpair.oscillator import Oscillator
 from gearpair.quantities import attributes
+from gearpair.stiffness import StiffnessWave
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -185,11 +188,11 @@ def schedule(
     mean_force = cycles.torque / (drive.pinion_base_radius_mm * 1e-3)
     if accelerates:
         mean_force = mean_force + inertia_force_n(drive, cycles.acceleration)
-    base = drive.at_speed(float(cycles.speed[0])).oscillator()
-    frequencies = cycles.speed / drive.resonance_rpm
+    meshing = cache(partial(under_torque, drive))
+    frequencies, forces = cycles.speed / drive.resonance_rpm, mean_force / unit
     oscillators = [
-        base.replace(mesh_frequency=frequency, mean_force=force / unit)
-        for frequency, force in zip(frequencies.tolist(), mean_force.tolist(), strict=True)
+        meshing(torque).replace(mesh_frequency=frequency, mean_force=force)
+        for torque, frequency, force in zip(cycles.torque.tolist(), frequencies.tolist(), forces.tolist(), strict=True)
     ]
     state = start or steady_state(oscillators[0])
     x, v = state.points[0].tolist()
@@ -207,18 +210,35 @@ def schedule(
     variables = {name: ("cycle", column, attributes(name)) for name, column in columns.items()}
     kept = ("x", "v", "x_min", "x_max", "drive_impacts", "coast_impacts", "impact_state")
     result = xr.Dataset(variables, run.coords, {"drive": repr(drive)}).assign({name: run[name] for name in kept})
-    return result.assign(_samples(drive, oscillators[0], run)) if samples_per_period else result
+    return result.assign(_samples(drive, oscillators, run)) if samples_per_period else result
 
 
-def _samples(drive: GearDrive, osc: Any, run: xr.Dataset) -> dict[str, Any]:
+def under_torque(drive: GearDrive, torque_nm: float) -> Oscillator:
+    """The oscillator of a drive under another torque, in the units of X, tau and force that `drive` has.
+
+    Stiffness and error of relieved tips follow the torque, and an error of the profile its sign.
+    """
+    osc = drive.at_speed(drive.resonance_rpm).oscillator()
+    if torque_nm == drive.pinion_torque_nm or not (drive.profile_harmonics or drive.relief):
+        return osc
+    other = drive.replace(pinion_torque_nm=torque_nm).at_speed(drive.resonance_rpm)
+    meshing, stiffer = other.oscillator(), other.mean_stiffness_n_per_um / drive.mean_stiffness_n_per_um
+    return osc.replace(
+        stiffness=StiffnessWave(meshing.stiffness.edges, tuple(stiffer * each for each in meshing.stiffness.levels)),
+        error_amplitude=meshing.error_amplitude,
+        error_phase=meshing.error_phase,
+        harmonics=meshing.harmonics,
+    )
+
+
+def _samples(drive: GearDrive, oscillators: Sequence[Oscillator], run: xr.Dataset) -> dict[str, Any]:
     """What the samples of a passage are in SI units."""
-    fraction = np.arange(run.sizes["sample"]) / run.sizes["sample"]
-    x = run.sample_x.values
+    fraction, x = np.arange(run.sizes["sample"]) / run.sizes["sample"], run.sample_x.values
     pressed = np.sign(x) * np.clip(np.abs(x) - 1.0, 0.0, None)
     found = {
         "sample_time": run.sample_tau.values / drive.natural_frequency_rad_s,
-        "sample_dte": (x + osc.error(fraction * osc.period)) * drive.half_backlash_m * 1e6,
-        "sample_force": pressed * osc.stiffness(fraction) * drive.unit_force_n,
+        "sample_dte": (x + [osc.error(fraction * osc.period) for osc in oscillators]) * drive.half_backlash_m * 1e6,
+        "sample_force": pressed * [osc.stiffness(fraction) for osc in oscillators] * drive.unit_force_n,
     }
     return {name: (("cycle", "sample"), values, attributes(name)) for name, values in found.items()}
 

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
-from scipy.signal import resample_poly
 
 from gearpair._checks import check_class, check_count, check_number, checked
 from gearpair._equality import equal_by_value
@@ -112,6 +110,9 @@ def sound(
     >>> len(heard.samples), heard.peak < 1.0
     (22050, True)
     """
+    from scipy.interpolate import CubicSpline  # here, so that importing gearpair stays quick
+    from scipy.signal import resample_poly
+
     rate = check_count("rate", rate, at_least=1000)
     if isinstance(motion, SteadyState):
         seconds = 2.0 if seconds is None else check_number("seconds", seconds, above=2.0 * FADE, at_most=60.0)
@@ -147,6 +148,14 @@ def write_wav(path: str | Path, heard: Sound) -> None:
     ----------
     path : str or Path
     heard : Sound
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_wav(Path(folder) / "a.wav", Sound(np.zeros(100), 8000, 1.0))
+    ...     (Path(folder) / "a.wav").stat().st_size
+    244
     """
     from scipy.io import wavfile
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -60,8 +61,6 @@ def passage(oscillators: Sequence[Oscillator], x: float, v: float, *, samples_pe
 
     Examples
     --------
-    Past the resonance at .7 in 200 mesh periods, from the quiet motion below it:
-
     >>> from gearpair.motion import steady_state
     >>> osc = Oscillator(mesh_frequency=0.5, error_amplitude=0.05)
     >>> x, v = steady_state(osc).points[0]
@@ -118,7 +117,7 @@ def scheduled_oscillators(oscillators: Sequence[Oscillator]) -> Schedule:
             distinct.append(each)
         which[i] = len(distinct) - 1
     parts = [each.coefficients for each in distinct]
-    errors = np.array([(float(each.error(0.0)), error_rate(each)) for each in distinct])[which]
+    errors = np.array([error_and_rate(each) for each in distinct])[which]
     return Schedule(
         np.array([part[:6] for part in parts]),
         np.concatenate([part.edges for part in parts]),
@@ -131,9 +130,11 @@ def scheduled_oscillators(oscillators: Sequence[Oscillator]) -> Schedule:
     )
 
 
-def error_rate(osc: Oscillator) -> float:
-    """e', the rate of the transmission error at the start of a mesh period."""
-    return osc.mesh_frequency * sum(n * size * np.cos(phase) for n, size, phase in osc.all_harmonics)
+def error_and_rate(osc: Oscillator) -> tuple[float, float]:
+    """The transmission error e and its rate e' at the start of a mesh period."""
+    lines = osc.all_harmonics
+    error = math.fsum(size * math.sin(phase) for _, size, phase in lines)
+    return error, osc.mesh_frequency * math.fsum(n * size * math.cos(phase) for n, size, phase in lines)
 
 
 def _firsts(lengths: list[int]) -> NDArray[np.int64]:

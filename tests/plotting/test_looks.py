@@ -24,6 +24,7 @@ from gearpair.plotting.paper import contrast, paper
 OSC = gp.Oscillator()
 MESHES = {"34 and 34 teeth": gp.mesh_stiffness(gp.SpurPair(), n_phases=50)}
 (MESH,) = MESHES.values()
+LOADED = gp.teeth.loaded_mesh(MESH, gp.teeth.tip_relief(MESH, 20.0, 20.0, 0.4), 2000.0)
 STYLES = ("default", "dark_background")
 PLANE = {"x": np.linspace(-3.0, 3.0, 25), "v": np.linspace(-2.0, 2.0, 9)}
 SPEEDS = np.linspace(2000.0, 6000.0, 9)
@@ -141,6 +142,7 @@ OF_THEIR_OWN = {
     "portrait": lambda **k: plotting.portrait(made("state"), **k),
     "stiffness_trends": lambda **k: plotting.stiffness_trends(published.STIFFNESS_TABLE, {}, rows(3), **k),
     "tooth_loads": lambda **k: plotting.tooth_loads(made("chart"), tuple(rows(2)), **k),
+    "under_load": lambda **k: plotting.under_load({"2 kN": LOADED}, rows(3), **k),
 }
 CALLS = {name: lambda call=call, **k: [call(None, **k)] for name, call in ON_AXES.items()} | OF_THEIR_OWN
 IMAGES = {"basins", "finite_exponents", "impact_map", "impact_states", "load_map", "period_map", "quantity_map"}
@@ -255,7 +257,9 @@ def test_lines_and_words_are_seen_on_light_and_dark(name, style):
             notes = [] if name in BY_STATE else ax.texts  # some in the colour of their curve
             assert all(contrast(to_rgb(text.get_color()), ground) > 2.0 for text in notes if text.get_text())
             for artist in (*ax.lines, *parts([ax], LineCollection)):
-                assert max(contrast(colour, ground) for colour in shown(artist)) > 1.4, artist
+                assert max(contrast(colour, ground) for colour in shown(artist)) > (
+                    2.5 if style == "dark_background" else 1.4
+                )
         for legend in legends(axes):
             face = to_hex(legend.get_frame().get_facecolor())
             assert all(contrast(text.get_color(), face) > 3.0 for text in legend.get_texts())
