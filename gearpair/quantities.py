@@ -179,6 +179,8 @@ ROWS = (
     Quantity("both_flanks", "one error served both flanks"),
     Quantity("worst_share", "share of the starts that leads to the worst motion"),
     Quantity("worst_phase", "phase of the error of the worst motion", unit="rad"),
+    Quantity("time_share", "share of the time"),
+    Quantity("parted_share", "share of the time spent where the teeth may part"),
     Quantity("loss", "what the teeth do that lose contact"),
     Quantity("factor_low", "largest mesh force over the mean force, at the mildest phase of the error"),
     Quantity("factor_high", "largest mesh force over the mean force, at the worst phase of the error"),

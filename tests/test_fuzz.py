@@ -32,6 +32,7 @@ def made(name):
         "drive": lambda: drive,
         "moving": lambda: drive.at_speed(2000.0),
         "flip": lambda: made("branch").bifurcations[0],
+        "loads": lambda: gp.design.load_map(drive, [50.0, 100.0], SPEEDS, n_starts=0, locate_jumps=False),
         "map": lambda: gp.parameter_map(
             OSC, {"damping_ratio": [0.1, 0.2], "mesh_frequency": [0.6, 0.7]}, measures=True
         ),
@@ -124,6 +125,7 @@ CALLS = {
         "manifolds": lambda: {"orbit": gp.periodic_orbit(OSC, -1.5688, -1.0135, 1), "length": 1.0, "spacing": 0.1},
     },
     "design": {
+        "duty_cycle": lambda: {"found": made("loads"), "points": [(60.0, 3000.0, 1.0)]},
         "find_jumps": lambda: {"up": made("up"), "down": made("up")},
         "idle_oscillator": lambda: {"drive": made("drive"), "speed_rpm": 800.0, **SWING},
         "idle_rattle": lambda: {"drive": made("drive"), "speeds_rpm": [800.0, 900.0], **SWING},
@@ -135,6 +137,13 @@ CALLS = {
         },
         "linear_response": lambda: {"osc": OSC},
         "load_change": lambda: {"drive": made("moving"), "torque_nm": [(0.0, 50.0), (0.01, 100.0)], "seconds": 0.01},
+        "load_map": lambda: {
+            "drive": made("drive"),
+            "torques_nm": [50.0, 100.0],
+            "speeds_rpm": SPEEDS,
+            "n_starts": 1,
+            "n_transient": 20,
+        },
         "measure_motion": lambda: {"drive": made("drive"), "state": made("state")},
         "run_up": lambda: {"drive": made("drive"), "from_rpm": 2000.0, "to_rpm": 3000.0, "seconds": 0.01},
         "schedule": lambda: {"drive": made("drive"), "seconds": 0.01, "speed_rpm": [(0.0, 2000.0), (0.01, 3000.0)]},

@@ -1,10 +1,11 @@
-"""A real drive over its speeds: the chart, what changes it, the standard's factor beside it, rattle without load."""
+"""A real drive over its speeds and loads: chart and map, what changes them, the standard's factor, idle rattle."""
 
 from gearpair.design.charts import speed_chart
 from gearpair.design.dynamic_factor import IsoDynamicFactor, iso_dynamic_factor
 from gearpair.design.idle import IdleRattle, idle_oscillator, idle_rattle
 from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import LinearResponse, linear_response
+from gearpair.design.load_maps import duty_cycle, load_map
 from gearpair.design.loads import measure_motion
 from gearpair.design.passages import load_change, run_up, schedule
 from gearpair.design.sensitivities import sensitivity
@@ -19,12 +20,14 @@ __all__ = [
     "LinearResponse",
     "Sound",
     "SpeedRange",
+    "duty_cycle",
     "find_jumps",
     "idle_oscillator",
     "idle_rattle",
     "iso_dynamic_factor",
     "linear_response",
     "load_change",
+    "load_map",
     "measure_motion",
     "run_up",
     "schedule",

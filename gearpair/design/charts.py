@@ -127,14 +127,20 @@ def worst_of(forces: Sequence[Sequence[float]]) -> int:
 
 def check_speeds(speeds_rpm: ArrayLike) -> NDArray[np.float64]:
     """Rising speeds above 0, at least two, or a ValueError."""
-    speeds = check_array("speeds_rpm", speeds_rpm)
-    if speeds.ndim != 1 or len(speeds) < 2:
-        raise ValueError(f"speeds_rpm must be at least two numbers, got shape {speeds.shape}")
+    speeds = check_rising("speeds_rpm", speeds_rpm)
     for i, speed in enumerate(speeds.tolist()):
         check_number(f"speeds_rpm[{i}]", speed, above=0.0)
-    if not np.all(np.diff(speeds) > 0.0):
-        raise ValueError("speeds_rpm must rise, each above the one before")
     return speeds
+
+
+def check_rising(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Rising numbers, at least two, or a ValueError."""
+    array = check_array(name, values)
+    if array.ndim != 1 or len(array) < 2:
+        raise ValueError(f"{name} must be at least two numbers, got shape {array.shape}")
+    if not np.all(np.diff(array) > 0.0):
+        raise ValueError(f"{name} must rise, each above the one before")
+    return array
 
 
 def oscillators_at(drive: GearDrive, speeds: NDArray[np.float64]) -> list[Oscillator]:

@@ -60,8 +60,9 @@ def speeds_to_avoid(chart: xr.Dataset) -> tuple[SpeedRange, ...]:
     Returns
     -------
     tuple of SpeedRange
-        By rising speed, one for each resonance: where speeds at which the teeth part lie less than five per cent apart,
-        what is between them counts as well. So do motions that no run meets, if one of the starts found them.
+        By rising speed: where speeds at which the teeth part lie less than five per cent apart, what is between them
+        counts as well, so that a resonance is one row. So do motions that no run meets, if one of the starts found
+        them.
 
     Examples
     --------

@@ -53,7 +53,7 @@ from gearpair.plotting.methods import (
     work_precision,
 )
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
-from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, rattle, tooth_loads, tornado
+from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, load_map, rattle, tooth_loads, tornado
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.survivors import survival_curve, survival_curves
 from gearpair.plotting.teeth import (
@@ -97,6 +97,7 @@ __all__ = [
     "impact_map",
     "impact_states",
     "interpolation_error",
+    "load_map",
     "load_shares",
     "manifolds",
     "mark_boundaries",

@@ -6,14 +6,18 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, QuadMesh
+from matplotlib.colors import LogNorm
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
 
 from gearpair._checks import checked
 from gearpair.design import IdleRattle, IsoDynamicFactor
+from gearpair.design.found import BOTH, FLOAT, HISTORY, KEPT, LOSSES, RARE
 from gearpair.design.sensitivities import OUTCOMES
-from gearpair.plotting.maps import IMPACT_COLOURS, impact_colours, name_colours
-from gearpair.plotting.paper import legible, look_of
+from gearpair.plotting.maps import ENDS, HEIGHT, IMPACT_COLOURS, impact_colours, name_colours
+from gearpair.plotting.paper import legible, look_of, paper
 from gearpair.plotting.style import INK, add_legend, new_axes, note, over_parameter
 from gearpair.quantities import axis_label
 
@@ -25,6 +29,12 @@ BAND = "#E9E4DA"  # over the phases
 LEAP = 0.25  # change from one speed to the next, of the largest factor, that is drawn as a jump
 LANE = 0.36  # height of a bar of a tornado, whose rows are 1 apart
 STRIP = 0.07  # height of a run's strip of impact states, in shares of the axes
+# What is outlined in a map of loads, from which loss of contact on, and how; and what is dotted.
+OUTLINES: Mapping[str, tuple[str, Any]] = {
+    "the teeth may part": (FLOAT, "-"),
+    "both flanks are struck": (BOTH, (0, (4.0, 1.2))),
+}
+IN_SOME = {RARE, HISTORY}
 CHANGES: Mapping[str, str] = {
     "pinion_torque_nm": "torque",
     "backlash_um": "backlash",
@@ -63,7 +73,8 @@ def dynamic_factors(
     ax = new_axes(ax, 4.6)
     speed = chart.speed.values
     factor = chart.dynamic_factor
-    top = np.nanmax([np.nanmax(chart.factor_high.values, initial=1.2), 1.2])
+    top = float(np.nanmax(chart.factor_high.values, initial=1.2))
+    top = top if iso is None else float(np.nanmax(iso.k_v, initial=top))
     linear = chart.linear_factor.values  # cut off where the strips begin
     linear = np.where(linear < 0.8 + (top - 0.8) * 1.12, linear, np.nan)
     ax.plot(speed, linear, color=GREY, linewidth=1.0, label="linear response", zorder=1)
@@ -175,6 +186,80 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes], **look: Any) -> tupl
 
 
 @checked
+def load_map(found: xr.Dataset, ax: Axes | None = None, *, largest: float | None = None, **look: Any) -> Axes:
+    """The largest dynamic factor over speed and torque, and outlines of where the teeth part, or strike both flanks.
+
+    An image and its colour bar, logarithmic, a collection of lines for each outline, and dots where the teeth part in
+    some of the motions alone. A point without a torque has no factor and stays blank.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        Of `gearpair.design.load_map`.
+    largest : float, optional
+        Where the colours end; the largest factor when not given.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> drive = gp.GearDrive.from_pair(gp.SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
+    ...     transmission_error_um=5.0, damping_ratio=0.08)
+    >>> ax = load_map(gp.design.load_map(drive, [50.0, 100.0], [2000.0, 4000.0, 6000.0], n_starts=2))
+    >>> ax.get_ylabel(), [text.get_text() for text in ax.get_legend().get_texts()]
+    ('torque of the pinion (N m)', ['the teeth may part'])
+    """
+    ax = new_axes(ax, HEIGHT)
+    speed, torque, factor = found.speed.values, found.torque.values, found.dynamic_factor.values
+    top = max(float(np.nanmax(factor, initial=1.0)), 1.1) if largest is None else largest
+    image = look_of(QuadMesh, look, ENDS, cmap="cividis", norm=LogNorm(1.0, top), rasterized=True)
+    shown = ax.pcolormesh(speed, torque, factor, shading="nearest", **image)
+    bar = ax.figure.colorbar(shown, ax=ax, label=axis_label("dynamic_factor"), pad=0.01)
+    ticks = [each for each in (1, 1.5, 2, 3, 5, 7, 10, 15, 20, 30, 50, 100) if each <= top]
+    bar.set_ticks(ticks, labels=[f"{each:g}" for each in ticks], minor=False)
+    bar.minorticks_off()
+    _outline_losses(ax, found.loss.values, speed, torque)
+    ax.set(xlabel=axis_label("speed"), ylabel=axis_label("torque"))
+    return ax
+
+
+def _outline_losses(ax: Axes, losses: np.ndarray, speed: np.ndarray, torque: np.ndarray) -> None:
+    """Lines about the points of a map at which contact is lost, dots where it is in some of the motions there."""
+    order = (KEPT, *LOSSES)
+    kinds = np.array([[order.index(loss) for loss in row] for row in losses.tolist()])
+    ink, around = legible(ax, INK), [withStroke(linewidth=2.9, foreground=paper(ax))]
+    handles = []
+    for name, (first, style) in OUTLINES.items():
+        lost = kinds >= order.index(first)
+        if lost.any():
+            line: dict[str, Any] = {"color": ink, "linestyle": style, "linewidth": 1.3, "label": name}
+            ax.add_collection(LineCollection(_borders(lost, speed, torque), path_effects=around, **line))
+            handles.append(Line2D([], [], **line))
+    rows, columns = np.nonzero(np.isin(losses, [*IN_SOME]))
+    if len(rows):
+        dots: dict[str, Any] = {"marker": "o", "markersize": 3.2, "markerfacecolor": ink, "linestyle": ""}
+        dots |= {"markeredgecolor": paper(ax), "markeredgewidth": 0.6, "label": "in some of several motions"}
+        handles += ax.plot(speed[columns], torque[rows], **dots)
+    if handles:
+        place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.3}
+        add_legend(ax, handles, 3, fontsize=8, columnspacing=1.2, **place)
+
+
+def _borders(inside: np.ndarray, x: np.ndarray, y: np.ndarray) -> list[list[tuple[float, float]]]:
+    """The sides of the cells of a map, its points in their middles, at which what is inside ends."""
+    between = [(each, 0.5 * (each[1:] + each[:-1])) for each in (x, y)]
+    columns, rows = (np.array([2 * v[0] - m[0], *m, 2 * v[-1] - m[-1]]).tolist() for v, m in between)
+    sides = [
+        [(columns[j + 1], rows[i]), (columns[j + 1], rows[i + 1])]
+        for i, j in np.argwhere(inside[:, 1:] != inside[:, :-1]).tolist()
+    ]
+    sides += [
+        [(columns[j], rows[i + 1]), (columns[j + 1], rows[i + 1])]
+        for i, j in np.argwhere(inside[1:] != inside[:-1]).tolist()
+    ]
+    return sides
+
+
+@checked
 def tornado(
     found: xr.Dataset,
     outcome: str = "dynamic_factor",
@@ -201,7 +286,7 @@ def tornado(
     (['damping ratio'], 2)
     """
     ax = new_axes(ax, 2.6)
-    values, base = found[outcome].values, float(found[f"base_{outcome}"])
+    values, base = found[outcome].values.round(9), round(float(found[f"base_{outcome}"]), 9)  # 1e-15 is none
     sorting = sort_by or outcome
     order = np.argsort(np.abs(found[sorting].values - float(found[f"base_{sorting}"])).max(axis=1).round(9))
     ends = {"lower": "#56B4E9", "higher": "#E69F00"}
@@ -212,7 +297,7 @@ def tornado(
             ax.barh(lane, values[k, end] - base, left=base, **bar)
             beyond = values[k, end] - base > -1e-9 * base  # or the same, up to rounding
             shift, ha = (3, "left") if beyond else (-3, "right")
-            told = f"{found.value.values[k, end]:.3g}"
+            told = f"{found.value.values[k, end]:.5g}"
             note(ax, told, (values[k, end], lane), (shift, 0), fontsize=7, va="center_baseline", ha=ha)
     ax.axvline(base, color=legible(ax, "#333333"), linewidth=0.9, zorder=3)
     names = [str(found.change.values[k]) for k in order]

@@ -49,6 +49,7 @@ def made(name):
         "idle": lambda: gp.design.idle_rattle(
             drive, np.linspace(300.0, 1500.0, 5), order=2.0, pinion_swing_deg=0.05, drag_torque_nm=0.4
         ),
+        "loads": lambda: gp.design.load_map(drive, [50.0, 100.0], SPEEDS, n_starts=0, locate_jumps=False),
         "manifolds": lambda: gp.manifolds(gp.periodic_orbit(OSC, -1.5688, -1.0135, 1), length=3.0),
         "map": lambda: gp.parameter_map(OSC, grid, measures=True),
         "motion": lambda: gp.trajectory(OSC, 1.0, 0.0, 8),
@@ -100,6 +101,7 @@ ON_AXES = {
     "impact_map": lambda ax, **k: plotting.impact_map(made("map"), ax, **k),
     "impact_states": lambda ax, **k: plotting.impact_states(made("plane"), ax, **k),
     "interpolation_error": lambda ax, **k: plotting.interpolation_error(made("segment"), ax, **k),
+    "load_map": lambda ax, **k: plotting.load_map(made("loads"), ax, **k),
     "load_shares": lambda ax, **k: plotting.load_shares(MESHES, ax, **k),
     "manifolds": lambda ax, **k: plotting.manifolds(made("manifolds"), ax, **k),
     "mark_boundaries": lambda ax, **k: plotting.mark_boundaries(
@@ -143,7 +145,7 @@ OF_THEIR_OWN = {
     "under_load": lambda **k: plotting.under_load({"2 kN": LOADED}, rows(3), **k),
 }
 CALLS = {name: lambda call=call, **k: [call(None, **k)] for name, call in ON_AXES.items()} | OF_THEIR_OWN
-IMAGES = {"basins", "finite_exponents", "impact_map", "impact_states", "period_map", "quantity_map"}
+IMAGES = {"basins", "finite_exponents", "impact_map", "impact_states", "load_map", "period_map", "quantity_map"}
 BY_STATE = {"range_strips", "dynamic_factors"}  # whose words stand on bars, which are as light in every style
 NO_PICTURES = {"add_motion_legend", "motion_colour", "per_width"}
 
@@ -189,7 +191,7 @@ def test_a_colour_and_a_width_reach_what_is_drawn(name):
 def test_a_transparency_reaches_an_image(name):
     (image,) = parts(CALLS[name](alpha=0.25), (QuadMesh, AxesImage))
     assert image.get_alpha() == 0.25
-    if name in ("finite_exponents", "quantity_map"):
+    if name in ("finite_exponents", "load_map", "quantity_map"):
         (image,) = parts(CALLS[name](cmap="magma"), (QuadMesh, AxesImage))
         assert image.get_cmap().name == "magma"
 
