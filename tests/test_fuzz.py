@@ -191,6 +191,7 @@ CALLS = {
         "harmonics": lambda: {"wave": OSC.stiffness, "n": 2},
         "impact_map": lambda: {"result": made("map")},
         "impact_states": lambda: {"result": made("plane")},
+        "load_map": lambda: {"found": made("loads")},
         "mesh_curves": lambda: {"meshes": {"one": made("mesh")}},
         "period_map": lambda: {"result": made("map")},
         "phase_portrait": lambda: {"motion": made("motion")},

@@ -98,3 +98,40 @@ def test_rattle_begins_at_the_line():
     onset = ax.lines[1].get_xdata()[0]
     speed, velocity = ax.lines[0].get_data()
     assert np.all(velocity[speed < onset * 0.98] == 0.0) and np.all(velocity[speed > onset * 1.02] > 0.0)
+
+
+def test_the_standard_s_factor_has_room_where_it_is_the_larger(chart):
+    iso = design.iso_dynamic_factor(DRIVE, SPEEDS, base_pitch_um=80.0, profile_um=80.0)
+    assert iso.k_v.max() > chart.factor_high.max()
+    assert plotting.dynamic_factors(chart, iso).get_ylim()[1] > iso.k_v.max()
+
+
+def test_a_map_of_loads_outlines_where_contact_is_lost(chart):
+    found = design.load_map(DRIVE, [60.0, 120.0, 240.0], SPEEDS, n_starts=2, n_phases=2, locate_jumps=False)
+    found.loss[2, :3] = ""
+    found.loss[0, 4] = "strike on both flanks"
+    found.loss[1, 5] = "part after a shock alone, not when run up or down"
+    ax = plotting.load_map(found)
+    (image,) = [each for each in ax.collections if isinstance(each, matplotlib.collections.QuadMesh)]
+    assert np.array_equal(image.get_array(), found.dynamic_factor)
+    outlines = {each.get_label(): each.get_segments() for each in ax.collections if each is not image}
+    step = SPEEDS[1] - SPEEDS[0]
+    ends = np.array(outlines["both flanks are struck"])[:, :, 0]  # three sides, for the fourth is the map's edge
+    assert len(ends) == 3 and np.allclose(np.abs(ends - SPEEDS[4]), step / 2)
+    kept = np.argwhere(found.loss.values == "")
+    assert len(kept) and all(len(side) == 2 for side in outlines["the teeth may part"])
+    dots = {(float(x), float(y)) for line in ax.lines for x, y in zip(*line.get_data(), strict=True)}
+    assert (SPEEDS[5], 120.0) in dots and (SPEEDS[4], 60.0) not in dots
+
+
+def test_outlines_are_the_sides_between_inside_and_outside():
+    inside = np.array([[True, False, False], [True, True, False]])
+    sides = plotting.speed_chart._borders(inside, np.array([1.0, 2.0, 3.0]), np.array([10.0, 20.0]))
+    assert sides == [[(1.5, 5.0), (1.5, 15.0)], [(2.5, 15.0), (2.5, 25.0)], [(1.5, 15.0), (2.5, 15.0)]]
+
+
+def test_a_time_apart_of_a_rounding_has_no_bar():
+    quiet = DRIVE.replace(damping_ratio=0.5, pinion_torque_nm=400.0)
+    found = design.sensitivity(quiet, SPEEDS[::10], {"damping_ratio": (0.4, 1.0)})
+    found.time_apart[:] = 1e-15
+    assert {bar.get_width() for bar in plotting.tornado(found, "time_apart").patches} == {0.0}
