@@ -11,6 +11,7 @@ from gearpair.design.sensitivities import sensitivity
 from gearpair.design.shocks import shock_margin
 from gearpair.design.sounds import Sound, sound, write_wav
 from gearpair.design.speed_ranges import SpeedRange, speed_range_table, speeds_to_avoid
+from gearpair.design.verdicts import Verdict, verdict
 
 __all__ = [
     "IdleRattle",
@@ -19,6 +20,7 @@ __all__ = [
     "LinearResponse",
     "Sound",
     "SpeedRange",
+    "Verdict",
     "find_jumps",
     "idle_oscillator",
     "idle_rattle",
@@ -34,5 +36,6 @@ __all__ = [
     "speed_chart",
     "speed_range_table",
     "speeds_to_avoid",
+    "verdict",
     "write_wav",
 ]
