@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gearpair._checks import check_reach, checked
 from gearpair.design.dynamic_factor import IsoDynamicFactor
-from gearpair.design.speed_ranges import SpeedRange, speeds_to_avoid
+from gearpair.design.speed_ranges import SpeedRange, speeds_to_avoid, three_digits
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -143,7 +143,7 @@ def _worst(chart: xr.Dataset, iso: IsoDynamicFactor | None) -> str:
     apart = float(chart.time_apart_high.max())
     return (
         f"The worst of the range is a dynamic factor of {largest[top]:.1f} at {chart.speed.values[top]:.0f} rpm"
-        f"{compared}; the mesh then carries up to {force:.3g} kN. The teeth are apart for up to {apart:.0%} "
+        f"{compared}; the mesh then carries up to {three_digits(force)} kN. The teeth are apart for up to {apart:.0%} "
         "of the time."
     )
 

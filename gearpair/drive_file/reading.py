@@ -25,6 +25,12 @@ OF_PAIR = (
     *("youngs_modulus_gpa", "poisson_ratio", "density_kg_m3"),
     *(f"{who}_{name}" for who in GEARS for name in ("shift", "face_width_mm", "bore_ratio", "tip_shortening")),
 )
+# What a default says nothing of, once this is given.
+INSTEAD = {
+    **dict.fromkeys(("pinion_shift", "gear_shift"), "centre_distance_mm"),
+    **{f"{who}_added_inertia_kg_m2": f"{who}_inertia_kg_m2" for who in GEARS},
+    "backlash": "pinion_thickness_allowance_um",
+}
 # What says the same in two ways.
 EITHER = (
     *((f"{who}_tip_diameter_mm", f"{who}_tip_shortening") for who in GEARS),
@@ -78,8 +84,11 @@ class DriveFile:
 
     @property
     def defaults(self) -> dict[str, Any]:
-        """The entries that are not given and have a default."""
-        return {name: e.default for name, e in ENTRIES.items() if name not in self.given and e.default is not None}
+        """The entries that are not given, whose default is taken."""
+        known = {*self.given, *(name for name, other in INSTEAD.items() if other in self.given)}
+        if "transmission_error_csv" not in self.given:
+            known.add("transmission_error_covers")
+        return {name: e.default for name, e in ENTRIES.items() if name not in known and e.default is not None}
 
     @property
     def idle(self) -> dict[str, float] | None:

@@ -18,7 +18,11 @@ from gearpair.plotting.style import INK, add_legend, new_axes, note, over_parame
 from gearpair.quantities import axis_label
 
 # Lines need more contrast than areas: contact kept, lost on one side, both flanks struck.
-STATE_INK: Mapping[str, str] = {"none_drive": "#1F3A5F", "single_drive": "#D55E00", "double": "#54278F"}
+STATE_INK: Mapping[str, str] = {
+    **dict.fromkeys(("none_drive", "none_coast"), "#1F3A5F"),
+    **dict.fromkeys(("single_drive", "single_coast"), "#D55E00"),
+    "double": "#54278F",
+}
 OTHER_INK = "#8C8577"
 GREY = "#9A9A9A"
 SERVICE = "#3E7A3E"  # speeds that the drive runs at
@@ -108,7 +112,9 @@ def dynamic_factors(
 def _mesh_hertz(ax: Axes, teeth: int) -> None:
     """A second axis below, the mesh frequency in hertz."""
     below = ax.secondary_xaxis(-0.16, functions=(lambda rpm: rpm * teeth / 60.0, lambda hertz: hertz * 60.0 / teeth))
-    below.set_xlabel("mesh frequency (Hz)")
+    below.set_xlabel("mesh frequency (Hz)", fontsize=ax.xaxis.label.get_size(), color=ax.xaxis.label.get_color())
+    like = ax.get_xticklabels()[0]
+    below.tick_params(labelsize=like.get_size(), labelcolor=like.get_color())
 
 
 def _mark_service(ax: Axes, service_rpm: Sequence[float]) -> None:

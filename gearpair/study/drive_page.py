@@ -9,7 +9,6 @@ from html import escape
 from typing import Any
 
 from gearpair.design import speed_range_table
-from gearpair.drive import GearDrive
 from gearpair.drive_file import ENTRIES
 from gearpair.study.drive_answer import Answer, Loaded
 from gearpair.study.record import versions
@@ -63,7 +62,7 @@ def page(answer: Answer) -> str:
     if answer.idle is not None:
         parts += _idle(answer)
     parts += [_heading("The drive as given"), _html(_entries(answer.file.given))]
-    parts += [_heading("What follows from it"), _html(_following(answer.drive))]
+    parts += [_heading("What follows from it"), _html(_following(answer))]
     parts += [_heading("What was assumed"), _list([*answer.file.notes, *MODEL])]
     parts += ["<p>Where the file does not say, this was taken:</p>", _html(_entries(answer.file.defaults))]
     made = ", ".join(f"{name} {number}" for name, number in versions(("gearpair",)).items()) or "gearpair"
@@ -119,7 +118,10 @@ def _figure(ax: Any, told: str, caption: str) -> str:
 
 
 def _entries(values: Mapping[str, Any]) -> Table:
-    rows = [[name, _shown(value), ENTRIES[name].unit or "–", ENTRIES[name].meaning] for name, value in values.items()]
+    rows = [
+        [name, _shown(value), ENTRIES[name].unit.replace("um", "µm") or "–", ENTRIES[name].meaning]
+        for name, value in values.items()
+    ]
     return Table(["entry", "value", "unit", "what it is"], rows)
 
 
@@ -129,7 +131,8 @@ def _shown(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def _following(drive: GearDrive) -> Table:
+def _following(answer: Answer) -> Table:
+    drive = answer.drive
     assert drive.mesh is not None  # it comes from a drawing
     pair = drive.mesh.pair
     rows = [
@@ -144,6 +147,9 @@ def _following(drive: GearDrive) -> Table:
         ["mesh resonance (rpm of the pinion)", f"{drive.resonance_rpm:.0f}"],
         ["mesh resonance (Hz)", f"{drive.natural_frequency_rad_s / (2 * math.pi):.0f}"],
     ]
+    if (deviations := answer.file.iso_deviations) is not None:
+        both = " and ".join(f"{value:.3g}" for value in deviations.values())
+        rows.append(["base pitch and profile form deviation, for ISO's factor (µm)", both])
     return Table(["of the drive", "value"], rows)
 
 
