@@ -4,17 +4,28 @@ import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
 
-from gearpair._checks import check_count, check_fields, check_number, checked, is_number
-from gearpair.harmonics import Harmonic, ShaftOrder, check_harmonics, check_shaft_orders, summed_harmonics
+from gearpair._checks import check_count, check_fields, check_number, checked
+from gearpair.drive_file import read_drive_file, write_drive_file
+from gearpair.harmonics import (
+    Error,
+    Harmonic,
+    ShaftOrder,
+    check_harmonics,
+    check_shaft_orders,
+    error_fields,
+    scaled,
+    summed_harmonics,
+)
 from gearpair.oscillator import Oscillator
 from gearpair.scales import Scales
 from gearpair.stiffness import StiffnessWave
 from gearpair.teeth import GearBlank, LoadedMesh, MeshStiffness, SpurPair, TipRelief, loaded_mesh
-from gearpair.teeth.drawing import drawn_fields, loaded_fields
+from gearpair.teeth.drawing import DRAWING, PAIR, drawn_fields, loaded_fields, redrawn_fields
 from gearpair.teeth.meshing import Coupling
 
 LIMITS: dict[str, dict[str, float]] = {
@@ -25,7 +36,6 @@ LIMITS: dict[str, dict[str, float]] = {
     **dict.fromkeys(("pinion_torque_nm", "error_phase_rad"), {}),
 }
 SOLID = GearBlank()
-Error = float | Sequence[Harmonic | tuple[int, float, float]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -146,7 +156,7 @@ class GearDrive(Scales):
         Parameters
         ----------
         pair : SpurPair
-        pinion_torque_nm, backlash_um, pinion_speed_rpm : float
+        pinion_torque_nm, backlash_um, pinion_speed_rpm, shaft_orders
             As in `GearDrive`; `SpurPair.normal_backlash_um` makes one of other statements of the backlash.
         transmission_error_um : float or sequence of (order, amplitude, phase)
             The amplitude e_a of a sinusoid whose phase is unknown, or all harmonics from order 1 with their phases, as
@@ -159,8 +169,6 @@ class GearDrive(Scales):
             As in `mesh_stiffness`.
         n_levels : int
             Levels of the staircase that stands for the mesh stiffness.
-        shaft_orders : sequence of (teeth, amplitude, phase, order)
-            As in `GearDrive`.
         relief : TipRelief, optional
             What is taken off the tips. Stiffness and `profile_harmonics`, twelve of them, are then those of
             `gearpair.teeth.loaded_mesh` under the drive's own torque, also after `replace`.
@@ -190,6 +198,21 @@ class GearDrive(Scales):
             shaft_orders=check_shaft_orders("shaft_orders", shaft_orders),
         )
         return drive.replace(transmission_error_um=transmission_error_um, damping_ratio=damping_ratio)
+
+    @classmethod
+    @checked
+    def from_file(cls, path: str | Path) -> Self:
+        """The drive of a YAML file that holds what stands on a drawing; ``gearpair drive --example`` shows one.
+
+        Of several torques it is the first, of tolerances of the backlash their middle. A ValueError tells in a
+        sentence that begins with the file's name what is wrong in it.
+        """
+        return read_drive_file(path).made(cls)
+
+    @checked
+    def to_file(self, path: str | Path) -> None:
+        """Write a file that `from_file` makes the same drive of; for drives of `from_pair`."""
+        write_drive_file(path, self)
 
     def replace(self, **changes: Any) -> Self:
         """A copy with some numbers changed, and with them what follows from them.
@@ -236,43 +259,16 @@ class GearDrive(Scales):
             changes.setdefault("relief", None)
         redrawn = {*DRAWING, *PAIR} | ({"pinion_torque_nm"} if relieved else set())
         if self.mesh is not None and redrawn & changes.keys():
-            changes = self._redrawn(changes)
+            changes = redrawn_fields(self, changes)
             ratio = self.damping_ratio if ratio is None else ratio
         if "transmission_error_um" in changes:
-            changes = self._error(changes.pop("transmission_error_um")) | changes
+            given, present = changes.pop("transmission_error_um"), (self.transmission_error_um, self.error_harmonics)
+            changes = error_fields(given, *present) | changes
         changed = dataclasses.replace(self, **(changes | forgotten))
         if ratio is None:
             return changed
         damping = check_number("damping_ratio", ratio, at_least=0.0) * changed.critical_damping_n_s_per_m
         return dataclasses.replace(changed, damping_n_s_per_m=damping)
-
-    def _redrawn(self, changes: dict[str, Any]) -> dict[str, Any]:
-        """The changes with what follows from those of the drawing, or of the load on relieved tips, in their place."""
-        assert (mesh := self.mesh) is not None
-        drawn: dict[str, Any] = {} if self.relief is None else {"profile_harmonics": ()}
-        drawing = {name: changes.pop(name) for name in (*DRAWING, *PAIR) if name in changes}
-        n_levels, relief = drawing.pop("n_levels", len(self.stiffness.levels)), drawing.pop("relief", self.relief)
-        if drawing:
-            pair, coupling = drawing.pop("pair", mesh.pair), drawing.pop("coupling", mesh.coupling)
-            blanks = {who: drawing.pop(f"{who}_blank", getattr(self, f"{who}_blank")) for who in ("pinion", "gear")}
-            drawn |= drawn_fields(pair.replace(**drawing), coupling, blanks)
-        torque = changes.get("pinion_torque_nm", self.pinion_torque_nm)
-        return drawn | loaded_fields(drawn.get("mesh", mesh), relief, torque, n_levels) | changes
-
-    def _error(self, given: Error) -> dict[str, Any]:
-        """The fields of a transmission error from its amplitude, or from all its harmonics."""
-        if is_number(given):
-            size = check_number("transmission_error_um", given, at_least=0.0)
-            present = self.transmission_error_um
-            others = [Harmonic(n, each * size / present, phase) for n, each, phase in self.error_harmonics if present]
-            return {"transmission_error_um": size, "error_harmonics": tuple(others) or self.error_harmonics}
-        error = check_harmonics("transmission_error_um", given, lowest=1)
-        first = next((each for each in error if each.order == 1), Harmonic(1, 0.0))
-        return {
-            "transmission_error_um": first.amplitude,
-            "error_phase_rad": first.phase,
-            "error_harmonics": tuple(each for each in error if each.order > 1),
-        }
 
     def at_speed(self, pinion_speed_rpm: float) -> Self:
         """The drive at another speed of the pinion."""
@@ -326,10 +322,8 @@ class GearDrive(Scales):
             damping_ratio=self.damping_ratio,
             mesh_frequency=self.mesh_frequency_rad_s / self.natural_frequency_rad_s,
             stiffness=self.stiffness,
-            harmonics=tuple(
-                Harmonic(order, amplitude * 1e-6 / self.half_backlash_m, phase) for order, amplitude, phase in others
-            ),
-            shaft_orders=_scaled(self.shaft_orders, 1e-6 / self.half_backlash_m),
+            harmonics=scaled(others, 1e-6 / self.half_backlash_m),
+            shaft_orders=scaled(self.shaft_orders, 1e-6 / self.half_backlash_m),
         )
 
     def with_oscillator(self, osc: Oscillator) -> Self:
@@ -345,16 +339,9 @@ class GearDrive(Scales):
             transmission_error_um=[(order, size * unit_um, phase) for order, size, phase in osc.all_harmonics],
             damping_ratio=osc.damping_ratio,
             stiffness=osc.stiffness,
-            shaft_orders=_scaled(osc.shaft_orders, unit_um),
+            shaft_orders=scaled(osc.shaft_orders, unit_um),
         )
 
 
-def _scaled(orders: Sequence[ShaftOrder], unit: float) -> tuple[ShaftOrder, ...]:
-    """Errors of shafts in other units."""
-    return tuple(each._replace(amplitude=each.amplitude * unit) for each in orders)
-
-
 FIELDS = tuple(each.name for each in dataclasses.fields(GearDrive))
-PAIR = tuple(each.name for each in dataclasses.fields(SpurPair))
-DRAWING = ("pair", "coupling", "n_levels", "pinion_blank", "gear_blank", "relief")
 DRAWN = {*PAIR} - {*FIELDS} | {*DRAWING}  # only where there is a drawing

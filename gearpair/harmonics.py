@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterable
-from typing import Any, NamedTuple
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from gearpair._checks import check_count, check_number, shown
+from gearpair._checks import check_count, check_number, is_number, shown
 
 LARGEST_ORDER = 200  # of a harmonic: the cells of a period are as many times ten
 
@@ -31,6 +31,10 @@ class ShaftOrder(NamedTuple):
     amplitude: float  # over half the backlash in an `Oscillator`, in micrometres in a `GearDrive`
     phase: float = 0.0  # at the start of a base period, in radians
     order: int = 1  # waves in a revolution
+
+
+Line = TypeVar("Line", Harmonic, ShaftOrder)
+Error = float | Sequence[Harmonic | tuple[int, float, float]]  # an amplitude, or all harmonics
 
 
 def check_harmonics(name: str, harmonics: Any, lowest: int = 2) -> tuple[Harmonic, ...]:
@@ -77,3 +81,23 @@ def summed_harmonics(*harmonics: Harmonic) -> tuple[Harmonic, ...]:
     for order, amplitude, phase in harmonics:
         sums[order] = sums.get(order, 0.0) + cmath.rect(amplitude, phase)
     return tuple(Harmonic(order, *cmath.polar(each)) for order, each in sorted(sums.items()))
+
+
+def error_fields(given: Error, present: float, others: tuple[Harmonic, ...]) -> dict[str, Any]:
+    """The fields of a drive's transmission error from its amplitude, or from all its harmonics.
+
+    An amplitude takes the harmonics beyond the first, `others`, with it from the one at `present`.
+    """
+    if is_number(given):
+        size = check_number("transmission_error_um", given, at_least=0.0)
+        rest = tuple(each._replace(amplitude=each.amplitude * size / present) for each in others if present)
+        return {"transmission_error_um": size, "error_harmonics": rest or others}
+    error = check_harmonics("transmission_error_um", given, lowest=1)
+    first = next((each for each in error if each.order == 1), Harmonic(1, 0.0))
+    rest = tuple(each for each in error if each.order > 1)
+    return {"transmission_error_um": first.amplitude, "error_phase_rad": first.phase, "error_harmonics": rest}
+
+
+def scaled(lines: Iterable[Line], unit: float) -> tuple[Line, ...]:
+    """Harmonics or shaft orders in other units."""
+    return tuple(each._replace(amplitude=each.amplitude * unit) for each in lines)

@@ -76,6 +76,8 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
     if "pinion_torque_nm" in values:
         backlash = SpurPair(**pair).normal_backlash_um(**_chosen(values, ("backlash_um", "backlash")))
         GearDrive.from_pair(SpurPair(**pair), backlash_um=backlash, **_chosen(values, DRIVE))
+    if isinstance(values.get("drive"), str):  # a drive's file; later in a chapter it is the drive
+        GearDrive.from_file(values["drive"])
     for name, scalar in {**STANDS_FOR, **stands_for}.items():
         if name in values:
             _check_as(name, partial(osc.replace, **{scalar: values[name]}))

@@ -12,6 +12,7 @@ from gearpair.design.sensitivities import sensitivity
 from gearpair.design.shocks import shock_margin
 from gearpair.design.sounds import Sound, sound, write_wav
 from gearpair.design.speed_ranges import SpeedRange, speed_range_table, speeds_to_avoid
+from gearpair.design.verdicts import Verdict, verdict
 
 __all__ = [
     "IdleRattle",
@@ -20,6 +21,7 @@ __all__ = [
     "LinearResponse",
     "Sound",
     "SpeedRange",
+    "Verdict",
     "duty_cycle",
     "find_jumps",
     "idle_oscillator",
@@ -37,5 +39,6 @@ __all__ = [
     "speed_chart",
     "speed_range_table",
     "speeds_to_avoid",
+    "verdict",
     "write_wav",
 ]

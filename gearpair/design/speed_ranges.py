@@ -135,7 +135,7 @@ def speed_range_table(ranges: Iterable[SpeedRange]) -> Table:
             run.why,
             ", ".join(run.motions) if len(run.motions) < 4 else f"{len(run.motions)} kinds",
             *(_or_dash(text, value) for text, value in ((".1f", run.dynamic_factor), (".0%", run.time_apart))),
-            _or_dash(".3g", run.impact_velocity),
+            "–" if np.isnan(run.impact_velocity) else three_digits(run.impact_velocity),
         ]
         for run in ranges
     ]
@@ -149,3 +149,8 @@ def speed_range_table(ranges: Iterable[SpeedRange]) -> Table:
 
 def _or_dash(form: str, value: float) -> str:
     return "–" if np.isnan(value) else format(value, form)
+
+
+def three_digits(value: float) -> str:
+    """A number of three digits, or of all before the point, without an exponent."""
+    return f"{value:.0f}" if abs(value) >= 99.95 else f"{value:.3g}"

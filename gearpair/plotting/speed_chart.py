@@ -1,6 +1,6 @@
 """Pictures of a drive over its speeds."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
-from gearpair._checks import checked
+from gearpair._checks import check_count, check_reach, checked
 from gearpair.design import IdleRattle, IsoDynamicFactor
 from gearpair.design.found import BOTH, FLOAT, HISTORY, KEPT, LOSSES, RARE
 from gearpair.design.sensitivities import OUTCOMES
@@ -22,9 +22,14 @@ from gearpair.plotting.style import INK, add_legend, new_axes, note, over_parame
 from gearpair.quantities import axis_label
 
 # Lines need more contrast than areas: contact kept, lost on one side, both flanks struck.
-STATE_INK: Mapping[str, str] = {"none_drive": "#1F3A5F", "single_drive": "#D55E00", "double": "#54278F"}
+STATE_INK: Mapping[str, str] = {
+    **dict.fromkeys(("none_drive", "none_coast"), "#1F3A5F"),
+    **dict.fromkeys(("single_drive", "single_coast"), "#D55E00"),
+    "double": "#54278F",
+}
 OTHER_INK = "#8C8577"
 GREY = "#9A9A9A"
+SERVICE = "#3E7A3E"  # speeds that the drive runs at
 BAND = "#E9E4DA"  # over the phases
 LEAP = 0.25  # change from one speed to the next, of the largest factor, that is drawn as a jump
 LANE = 0.36  # height of a bar of a tornado, whose rows are 1 apart
@@ -46,7 +51,14 @@ CHANGES: Mapping[str, str] = {
 
 @checked
 def dynamic_factors(
-    chart: xr.Dataset, iso: IsoDynamicFactor | None = None, ax: Axes | None = None, *, jumps: bool = True, **look: Any
+    chart: xr.Dataset,
+    iso: IsoDynamicFactor | None = None,
+    ax: Axes | None = None,
+    *,
+    jumps: bool = True,
+    service_rpm: Sequence[float] | None = None,
+    pinion_teeth: int | None = None,
+    **look: Any,
 ) -> Axes:
     """The dynamic factor over the speed, run up and down, with jumps, impact states, and what is usually taken.
 
@@ -60,6 +72,10 @@ def dynamic_factors(
         Drawn in grey beside the linear response.
     jumps : bool
         Mark and name the located jumps.
+    service_rpm : sequence of float, optional
+        The lowest and the highest speed of service, to be marked.
+    pinion_teeth : int, optional
+        For a second axis, of the mesh frequency in hertz.
 
     Examples
     --------
@@ -94,10 +110,30 @@ def dynamic_factors(
         _mark_jumps(ax, chart)
     over_parameter(ax, "speed", speed, axis_label("dynamic_factor"))
     ax.set_ylim(0.8, 0.8 + (top - 0.8) * 1.35)
+    if service_rpm is not None:
+        _mark_service(ax, service_rpm)
+    if pinion_teeth is not None:
+        _mesh_hertz(ax, check_count("pinion_teeth", pinion_teeth))
     _strips(ax, chart)
     place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.02), "borderaxespad": 0.0}
     add_legend(ax, columns=5, handlelength=2.2, fontsize=8, **place)
     return ax
+
+
+def _mesh_hertz(ax: Axes, teeth: int) -> None:
+    """A second axis below, the mesh frequency in hertz."""
+    below = ax.secondary_xaxis(-0.16, functions=(lambda rpm: rpm * teeth / 60.0, lambda hertz: hertz * 60.0 / teeth))
+    below.set_xlabel("mesh frequency (Hz)", fontsize=ax.xaxis.label.get_size(), color=ax.xaxis.label.get_color())
+    like = ax.get_xticklabels()[0]
+    below.tick_params(labelsize=like.get_size(), labelcolor=like.get_color())
+
+
+def _mark_service(ax: Axes, service_rpm: Sequence[float]) -> None:
+    """Shade and name the speeds of service."""
+    low, high = check_reach("service_rpm", service_rpm)
+    ax.axvspan(low, high, color=SERVICE, alpha=0.13, linewidth=0, zorder=-1)
+    looks: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "va": "bottom", "fontsize": 8}
+    note(ax, "in service", (max(low, ax.get_xlim()[0]), 0.0), (4, 3), color=legible(ax, SERVICE), **looks)
 
 
 def _mark_worst(ax: Axes, chart: xr.Dataset) -> None:

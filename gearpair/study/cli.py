@@ -1,4 +1,4 @@
-"""The command ``gearpair``: list the chapters, run one, build the book."""
+"""The command ``gearpair``: the verdict on a drive, list the chapters, run one, build the book."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gearpair.study.book import Book
 
 EPILOG = """\b
-examples:
+the study behind it:
   gearpair chapters
   gearpair run stiffness -p gear_teeth 54 -p module_mm 2 -o larger.ipynb
   gearpair run impacts -p mean_force 0.3 --html
@@ -73,7 +73,14 @@ def _stopped_by_signals() -> Iterator[None]:
 @click.option("--root", type=PATH, metavar="DIR", help="The checkout; found from here upwards.")
 @click.pass_context
 def command(context: click.Context, root: Path | None) -> None:
-    """Nonlinear dynamics of a spur gear pair: run the study's chapters and build its book."""
+    """A drawing, one command, one figure: at which speeds the teeth of a gear pair part.
+
+    \b
+      gearpair drive --example > pair.yml          a drawing with a comment to each line: put yours in
+      gearpair drive pair.yml --html report.html   the verdict, and the figure with it
+
+    For spur gears: one mesh, rigid shafts. The other commands run the chapters of the study and build its book.
+    """
     context.obj = root
 
 
@@ -82,6 +89,30 @@ def _book(context: click.Context) -> Book:
     from gearpair.study.book import Book
 
     return Book.find(context.obj)
+
+
+@command.command()
+@click.argument("file", type=PATH, required=False, metavar="PAIR.yml")
+@click.option("--example", is_flag=True, help="Print a file with a comment to each line, and nothing else.")
+@click.option("--html", type=PATH, metavar="OUT.html", help="Write a report: one page that needs nothing else.")
+@click.option("--csv", type=PATH, metavar="OUT.csv", help="Write the numbers: one row a torque, run and speed.")
+@click.option("--xlsx", type=PATH, metavar="OUT.xlsx", help="Write them as a workbook; takes openpyxl.")
+@click.option("--netcdf", type=PATH, metavar="OUT.nc", help="Write them as netCDF, with units.")
+@click.option("--quiet", is_flag=True, help="No progress on stderr.")
+def drive(file: Path | None, example: bool, quiet: bool, **outputs: Path | None) -> None:
+    """Say at which speeds the teeth of a drive part.
+
+    PAIR.yml holds what stands on its drawing and data sheet. Where the gear only idles, the numbers are those of its
+    rattle.
+    """
+    from gearpair.study.drive import example_file, run_drive
+
+    if example:
+        print(example_file(), end="")
+    elif file is None:
+        raise click.UsageError("Missing argument 'PAIR.yml', or --example", click.get_current_context())
+    else:
+        print(run_drive(file, {name: path for name, path in outputs.items() if path}, progress=not quiet))
 
 
 @command.command()

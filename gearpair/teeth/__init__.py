@@ -2,6 +2,7 @@
 
 from gearpair.teeth.blank import GearBlank
 from gearpair.teeth.finite_elements import FiniteElementBody, double_contact_stiffness, finite_element_bodies
+from gearpair.teeth.iso1328 import FlankTolerances, flank_tolerances
 from gearpair.teeth.iso6336 import IsoStiffness, iso_stiffness
 from gearpair.teeth.loading import LoadedMesh, loaded_mesh
 from gearpair.teeth.meshing import MeshStiffness, mesh_stiffness
@@ -20,6 +21,7 @@ from gearpair.teeth.transmission_error import (
 
 __all__ = [
     "FiniteElementBody",
+    "FlankTolerances",
     "GearBlank",
     "IsoStiffness",
     "LoadedMesh",
@@ -33,6 +35,7 @@ __all__ = [
     "error_harmonics",
     "error_orders",
     "finite_element_bodies",
+    "flank_tolerances",
     "full_contact_force",
     "iso_stiffness",
     "loaded_mesh",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any
 
 from gearpair._checks import check_class, check_number
@@ -11,6 +12,8 @@ from gearpair.teeth.meshing import Coupling, MeshStiffness, mesh_stiffness
 from gearpair.teeth.spurpair import SpurPair
 from gearpair.teeth.transmission_error import TipRelief, error_harmonics
 
+PAIR = tuple(each.name for each in fields(SpurPair))
+DRAWING = ("pair", "coupling", "n_levels", "pinion_blank", "gear_blank", "relief")
 PROFILE_HARMONICS = 12  # that stand for the error of relieved tips
 
 
@@ -37,3 +40,17 @@ def loaded_fields(mesh: MeshStiffness, relief: TipRelief | None, torque_nm: floa
         "profile_harmonics": error_harmonics(loaded.error_um, PROFILE_HARMONICS),
         "relief": relief,
     }
+
+
+def redrawn_fields(drive: Any, changes: dict[str, Any]) -> dict[str, Any]:
+    """Changes of a drive with what follows from those of the drawing, or of the load on reliefs, in their place."""
+    mesh = drive.mesh
+    drawn: dict[str, Any] = {} if drive.relief is None else {"profile_harmonics": ()}
+    drawing = {name: changes.pop(name) for name in (*DRAWING, *PAIR) if name in changes}
+    n_levels, relief = drawing.pop("n_levels", len(drive.stiffness.levels)), drawing.pop("relief", drive.relief)
+    if drawing:
+        pair, coupling = drawing.pop("pair", mesh.pair), drawing.pop("coupling", mesh.coupling)
+        blanks = {who: drawing.pop(f"{who}_blank", getattr(drive, f"{who}_blank")) for who in ("pinion", "gear")}
+        drawn |= drawn_fields(pair.replace(**drawing), coupling, blanks)
+    torque = changes.get("pinion_torque_nm", drive.pinion_torque_nm)
+    return drawn | loaded_fields(drawn.get("mesh", mesh), relief, torque, n_levels) | changes

@@ -21,6 +21,7 @@ LIMITS: dict[str, dict[str, float]] = {
     "pressure_angle_deg": {"above": 0.0, "below": 90.0},
     "poisson_ratio": {"above": 0.0, "below": 0.5},
     **dict.fromkeys(("tip_shortening", "tip_radius"), {"at_least": 0.0}),
+    **dict.fromkeys(("pinion_tip_shortening", "gear_tip_shortening"), {"at_least": 0.0}),
     **dict.fromkeys(("pinion_shift", "gear_shift"), {}),
 }
 
@@ -65,7 +66,8 @@ class SpurPair:
         value that gives a shifted pair its clearance c again.
     density_kg_m3 : float, optional
         Needed where the gears are weighed, unless E is that of a steel.
-    pinion_bore_ratio, gear_bore_ratio, pinion_face_width_mm, gear_face_width_mm : float, optional
+    pinion_bore_ratio, gear_bore_ratio, pinion_face_width_mm, gear_face_width_mm, pinion_tip_shortening,
+    gear_tip_shortening : float, optional
         Each gear's own, where it is not that of both above.
     pinion_material, gear_material : Material, optional
         Each gear's own, where it is not made of what is said of both above.
@@ -121,6 +123,8 @@ class SpurPair:
     gear_face_width_mm: float | None = None
     pinion_material: Material | None = None
     gear_material: Material | None = None
+    pinion_tip_shortening: float | None = None
+    gear_tip_shortening: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("pinion_teeth", "gear_teeth"):
@@ -282,7 +286,7 @@ class SpurPair:
             shift=shift,
             pitch_radius_mm=radius,
             base_radius_mm=base,
-            tip_circle_mm=radius + m * (self.addendum + shift - self.tip_shortening),
+            tip_circle_mm=radius + m * (self.addendum + shift - self._own(who, "tip_shortening")),
             root_circle_mm=radius - m * (self.addendum + self.clearance - shift),
             bore_mm=self._own(who, "bore_ratio") * radius,
             form_circle_mm=math.hypot(base, max(form_tangent, 0.0)),
