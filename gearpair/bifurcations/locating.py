@@ -123,7 +123,9 @@ def _grazings(
     return [] if middle is None else _grazings(problem, a, middle) + _grazings(problem, middle, b)
 
 
-def bifurcation_at(problem: OrbitProblem, kind: Kind, at: Step[Cycle], before: Contacts, after: Contacts) -> Bifurcation:
+def bifurcation_at(
+    problem: OrbitProblem, kind: Kind, at: Step[Cycle], before: Contacts, after: Contacts
+) -> Bifurcation:
     """What a solution of its equations is, with the contacts before and after it along the branch."""
     point = at.data.points[np.argmin(at.data.points[:, 0])]
     x_min, x_max = at.data.x_min, at.data.x_max

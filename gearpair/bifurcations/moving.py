@@ -45,7 +45,9 @@ def move_bifurcation(bifurcation: Bifurcation, osc: Oscillator) -> Bifurcation |
     (0.76612, 0.76459)
     """
     there = osc.replace(**{bifurcation.parameter: bifurcation.value})
-    problem = CurveProblem(replace(bifurcation, oscillator=there), {bifurcation.parameter: abs(bifurcation.value) or 1.0})
+    problem = CurveProblem(
+        replace(bifurcation, oscillator=there), {bifurcation.parameter: abs(bifurcation.value) or 1.0}
+    )
     u = problem.unknowns(bifurcation.x, bifurcation.v)
     for _ in range(NEWTON_STEPS):
         found = problem.equations(u)
@@ -60,7 +62,7 @@ def move_bifurcation(bifurcation: Bifurcation, osc: Oscillator) -> Bifurcation |
         u = u + change
         if np.max(np.abs(change)) < CLOSE:
             cycle = problem.cycle(u)
-            return bifurcation_at(problem, bifurcation.kind, Step(u, change, 0, cycle), *[cycle.contacts] * 2)
+            return bifurcation_at(problem, bifurcation.kind, Step(u, found[0], 0, cycle), *[cycle.contacts] * 2)
     return None
 
 

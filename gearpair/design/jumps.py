@@ -95,7 +95,7 @@ def _differ(before: SteadyState, after: SteadyState, smooth: float = SMOOTH) -> 
 
 def _located(run: str, before: SteadyState, after: SteadyState) -> Jump | None:
     here, there = before.oscillator.mesh_frequency, after.oscillator.mesh_frequency
-    names = [str(state.motion.kind) for state in (before, after)]
+    names = str(before.motion.kind), str(after.motion.kind)
     middle = Jump(run, 0.5 * (here + there), ON_GRID, *names)
     if before.period is None:
         return middle
@@ -123,4 +123,4 @@ def _located(run: str, before: SteadyState, after: SteadyState) -> Jump | None:
     end = ends[0][0]
     if end.kind == "flip" and after.period == 2 * before.period and not _differ(before, after, 3.0 * SMOOTH):
         return None
-    return Jump(run, end.value, end.kind, *names, bifurcation=end)
+    return Jump(run, end.value, end.kind, *names, end)

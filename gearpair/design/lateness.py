@@ -9,8 +9,9 @@ from gearpair.motion.measures import impact_measures
 from gearpair.motion.settling import Status
 from gearpair.motion.steady import SteadyState, steady_state
 
-BEFORE = 0.02  # of the speed, from which a ramp begins
-BEYOND = (0.02, 0.06, 0.2)  # how far it is followed, the next where it has not jumped by then
+BEFORE = 0.003  # of the speed, from which a ramp begins at least
+LIVES = 10.0  # of what begins with the ramp, which has died out by then
+BEYOND = (0.005, 0.02, 0.06, 0.2)  # how far it is followed, the next where it has not jumped by then
 NUDGE = 1e-3  # of the speed, beside the fold, at which both motions are looked at
 
 
@@ -25,7 +26,8 @@ def lateness(drive: GearDrive, fold: Bifurcation, run: str, ramp_rpm_per_s: floa
     if Status.ESCAPED in (before.status, after.status):
         return np.inf
     factors = [impact_measures(each).load_factor for each in (before, after)]
-    start = at * (1.0 - sense * BEFORE)
+    lives = LIVES / (max(drive.damping_ratio, 1e-3) * drive.natural_frequency_rad_s)
+    start = at - sense * min(at * BEFORE + ramp_rpm_per_s * lives, 0.3 * at)
     settled = _near(drive, fold, start)
     for beyond in BEYOND:
         end = at * (1.0 + sense * beyond)

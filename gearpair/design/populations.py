@@ -138,7 +138,7 @@ def population(
         result = xr.Dataset(columns, {name: (name, axis, axis_attributes(name)) for name, axis in boxes.axes.items()})
     facts = {"drive": repr(drive), "seed": seed, "confidence": confidence}
     coordinates = {"quantity": list(drawn), "quantile": list(QUANTILES), "half": list(HALVES)}
-    summary = _summary(boxes, {name: result[name].values for name in result}, confidence)
+    summary = _summary(boxes, {str(name): result[name].values for name in result}, confidence)
     return xr.Dataset(dict(result.variables) | summary, coordinates, facts)
 
 
@@ -211,15 +211,16 @@ class Boxes:
     @cached_property
     def identity(self) -> dict[str, str]:
         """What the numbers depend on besides the axes; two of the boxes show how the drawing is read."""
+        mesh, blanks = self.drive.mesh, (self.drive.pinion_blank, self.drive.gear_blank)
         first, last = (repr(self.box(i).at_speed(float(self.speeds[0])).oscillator()) for i in (0, -1))
         return {
             "kind": "population",
-            "oscillator": first,
-            "last oscillator": last,
             "drive": repr(self.drive),
-            "drawing": repr((self.drive.mesh and self.drive.mesh.pair, self.drive.relief)),
+            "drawing": repr((mesh and mesh.pair, mesh and mesh.coupling, self.drive.relief, blanks)),
             "spread": f"{', '.join(self.names)}: {fingerprint(self.values)}",
             "settings": repr(self.settings),
+            "oscillator": first,
+            "last oscillator": last,
         }
 
     def box(self, i: int) -> GearDrive:
