@@ -30,7 +30,7 @@ class Measured:
     job : str
         A name in `JOBS`.
     size : int
-        Values of a diagram, starts along each side of a grid, or motions of a plane.
+        Values of a diagram, starts along each side of a grid, motions of a plane, speeds, boxes or repetitions.
     seconds : float
     processor_seconds : float
         Summed over the cores; what the machine does for others does not count.
@@ -69,17 +69,41 @@ def plane(n: int) -> None:
     gp.parameter_map(gp.Oscillator(), axes)
 
 
-def chart(n: int) -> None:
-    """The speed chart of a drawn pair: runs up and down, twelve starts a speed, jumps located."""
+def drawn() -> gp.GearDrive:
+    """A drawn pair."""
     pair = gp.SpurPair(pinion_teeth=28, gear_teeth=57, face_width_mm=25.0)
-    drive = gp.GearDrive.from_pair(
+    return gp.GearDrive.from_pair(
         pair, pinion_torque_nm=120.0, backlash_um=100.0, transmission_error_um=4.0,
         damping_ratio=0.05,
     )  # fmt: skip
-    gp.design.speed_chart(drive, np.linspace(1500.0, 13000.0, n), n_starts=12)
 
 
-JOBS = {"diagram": diagram, "restarted": restarted, "grid": grid, "plane": plane, "chart": chart}
+def chart(n: int) -> None:
+    """The speed chart of a drawn pair: runs up and down, twelve starts a speed, jumps located."""
+    gp.design.speed_chart(drawn(), np.linspace(1500.0, 13000.0, n), n_starts=12)
+
+
+def boxes(n: int) -> None:
+    """As many gearboxes of the drawn pair, run up and down over 81 speeds."""
+    spread = {"backlash_um": (70.0, 130.0), "transmission_error_um": (2.0, 6.0), "damping_ratio": (0.03, 0.07)}
+    gp.design.population(drawn(), spread, np.linspace(1500.0, 13000.0, 81), n=n)
+
+
+def rig(n: int) -> None:
+    """Damping and error of the drawn pair from two jumps, so many times."""
+    for _ in range(n):
+        gp.design.identify(drawn().at_phase(0.3), 9105.26, 7332.83)
+
+
+JOBS = {
+    "diagram": diagram,
+    "restarted": restarted,
+    "grid": grid,
+    "plane": plane,
+    "chart": chart,
+    "boxes": boxes,
+    "rig": rig,
+}
 
 
 def peak_mib() -> float:

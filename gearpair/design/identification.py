@@ -69,8 +69,8 @@ class Identification:
     torques_nm, measured_rpm, fold_rpm : ndarray of float, shape (n,)
         Of each jump: the torque, the speed at which it was seen, and at which the fold lies.
     condition : float
-        Of the derivative of the relative speeds by what is sought, in logarithms and radians: the larger, the less the
-        speeds tell both apart.
+        Of the derivative of the speeds by what is sought, in logarithms and radians: the larger, the less the speeds
+        tell both apart.
     late_rpm : ndarray of float, shape (n,)
         How far a run at the rig's ramp goes on beyond each fold before it jumps; nan where no ramp was given.
     others : tuple of (float, float, float)
@@ -268,9 +268,8 @@ def _described(rig: Rig, found: list[Trial], speed_error: float, ramp: float | N
     sizes = np.concatenate([sizes, np.zeros(n - len(sizes))])
     spare = len(rig.seen) - n
     error_rpm = max(speed_error, rig.misfit(best) * float(np.sqrt(len(rig.seen) / spare)) if spare > 0 else 0.0)
-    relative = error_rpm / float(np.mean(rig.measured))
     with np.errstate(divide="ignore", invalid="ignore"):
-        spread = np.sqrt(np.nansum((turned.T / sizes) ** 2, axis=1)) * relative * HALF_WIDTH
+        spread = np.sqrt(np.nansum((turned.T / sizes) ** 2, axis=1)) * error_rpm * HALF_WIDTH
         condition = float(sizes[0] / sizes[-1])
     damping, error = np.exp(best.unknowns[:2]).tolist()
     intervals = [tuple(np.exp(best.unknowns[k] + spread[k] * np.array([-1.0, 1.0])).tolist()) for k in range(2)]

@@ -155,20 +155,20 @@ class Rig:
         return Trial(unknowns, folds, self.rpm(folds))
 
     def slopes(self, trial: Trial) -> Array:
-        """The derivative of the speeds' logarithms by what is sought, shape (jumps, unknowns)."""
+        """The derivative of the folds' speeds (rpm) by what is sought, shape (jumps, unknowns)."""
         rows = []
-        for seen, fold in zip(self.seen, trial.folds, strict=True):
+        for seen, fold, speed in zip(self.seen, trial.folds, trial.speeds, strict=True):
             shifts = [
                 fold_shift(fold, *(self.oscillator(trial.unknowns + side * SLOPE * each, seen) for side in (-1.0, 1.0)))
                 for each in np.eye(len(trial.unknowns))
             ]
-            rows.append(np.array(shifts) / (2.0 * SLOPE * fold.value))
+            rows.append(np.array(shifts) * speed / (2.0 * SLOPE * fold.value))
         return np.array(rows)
 
     def solved(self, trial: Trial) -> Trial | None:
         """Where the folds come nearest to the jumps, by Gauss and Newton's method from a point of the search."""
         for _ in range(STEPS):
-            change = -np.linalg.lstsq(self.slopes(trial), np.log(trial.speeds / self.measured), rcond=1e-9)[0]
+            change = -np.linalg.lstsq(self.slopes(trial), trial.speeds - self.measured, rcond=1e-9)[0]
             change *= min(1.0, LARGEST / max(float(np.abs(change).max()), 1e-300))
             for _ in range(HALVINGS):
                 there = self.moved(trial, trial.unknowns + change)
