@@ -30,7 +30,7 @@ class Measured:
     job : str
         A name in `JOBS`.
     size : int
-        Values of a diagram, starts along each side of a grid, or motions of a plane.
+        Values of a diagram, starts along each side of a grid, motions of a plane, speeds, boxes or repetitions.
     seconds : float
     processor_seconds : float
         Summed over the cores; what the machine does for others does not count.
@@ -93,6 +93,18 @@ def shocks(n: int) -> None:
     gp.design.shock_margin(drawn(), np.linspace(7000.0, 9500.0, n), n_starts=4)
 
 
+def boxes(n: int) -> None:
+    """As many gearboxes of the drawn pair, run up and down over 81 speeds."""
+    spread = {"backlash_um": (70.0, 130.0), "transmission_error_um": (2.0, 6.0), "damping_ratio": (0.03, 0.07)}
+    gp.design.population(drawn(), spread, np.linspace(1500.0, 13000.0, 81), n=n)
+
+
+def rig(n: int) -> None:
+    """Damping and error of the drawn pair from two jumps, so many times."""
+    for _ in range(n):
+        gp.design.identify(drawn().at_phase(0.3), 9105.26, 7332.83)
+
+
 JOBS = {
     "diagram": diagram,
     "restarted": restarted,
@@ -101,6 +113,8 @@ JOBS = {
     "chart": chart,
     "ramp": ramp,
     "shocks": shocks,
+    "boxes": boxes,
+    "rig": rig,
 }
 
 

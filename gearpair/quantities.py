@@ -198,6 +198,27 @@ ROWS = (
     Quantity("dip_back", "smallest dip of the torque that ends the loudest motion, as a share of it"),
     Quantity("surge_back", "smallest rise of the torque that does"),
     Quantity("frequency_ratio", "mesh frequency over the natural frequency"),
+    # Many drives.
+    Quantity("box", "number of the gearbox"),
+    Quantity("parts", "whether the teeth part, run up or down"),
+    Quantity("clatters", "whether they strike both flanks, run up or down"),
+    Quantity("two_motions", "whether the runs up and down lead to two motions"),
+    *(
+        Quantity(f"{what}_share{end}", f"share of the gearboxes {words}{which}")
+        for what, words in (
+            ("parting", "whose teeth part"),
+            ("clattering", "that strike both flanks"),
+            ("two_motions", "that have two motions"),
+        )
+        for end, which in (("", ""), ("_low", ", lower end"), ("_high", ", upper end"))
+    ),
+    Quantity("factor_quantile", "quantiles of the largest mesh force over the mean force"),
+    Quantity("velocity_quantile", "quantiles of the largest approach velocity at an impact", unit="mm/s"),
+    Quantity("first_loss", "lowest speed at which the teeth part", unit="rpm"),
+    Quantity("largest_factor", "largest mesh force over the mean force, at any speed"),
+    Quantity("value", "what the gearbox has of each quantity"),
+    Quantity("rank_correlation", "rank correlation of the largest factor with a quantity"),
+    Quantity("half_share", "share whose teeth part, of the gearboxes with one half of a quantity's values"),
     Quantity("jump_speed", "speed of the jump", unit="rpm"),
     Quantity("jump_kind", "jump: kind"),
     Quantity("jump_from", "jump: from"),

@@ -109,6 +109,7 @@ CALLS = {
         "doubled_orbit": lambda: {"bifurcation": made("flip")},
         "find_branches": lambda: {"osc": OSC, **ORBIT, "max_period": 1, "n_values": 1, "n_starts": 5},
         "find_orbits": lambda: {"osc": OSC, "max_period": 1, "n_starts": 10},
+        "move_bifurcation": lambda: {"bifurcation": made("flip"), "osc": OSC},
         "periodic_orbit": lambda: {"osc": OSC, "x": 0.34, "v": -0.25, "period": 2},
         "stable_ranges": lambda: {"branches": [made("branch")]},
     },
@@ -126,6 +127,19 @@ CALLS = {
     },
     "design": {
         "duty_cycle": lambda: {"found": made("loads"), "points": [(60.0, 3000.0, 1.0)]},
+        "identify": lambda: {
+            "drive": made("drive").at_phase(0.3),
+            "jump_up_rpm": 8598.25,
+            "jump_down_rpm": 7345.0,
+            "damping_ratios": (0.19, 0.2),
+            "errors_um": (1e-3, 2e-3),
+        },
+        "population": lambda: {
+            "drive": made("drive"),
+            "spread": {"backlash_um": (60.0, 100.0)},
+            "speeds_rpm": SPEEDS,
+            "n": 2,
+        },
         "find_jumps": lambda: {"up": made("up"), "down": made("up")},
         "idle_oscillator": lambda: {"drive": made("drive"), "speed_rpm": 800.0, **SWING},
         "idle_rattle": lambda: {"drive": made("drive"), "speeds_rpm": [800.0, 900.0], **SWING},

@@ -6,6 +6,7 @@ from gearpair.bifurcations.branches import Branch, continue_orbit
 from gearpair.bifurcations.curves import BifurcationCurve, continue_bifurcation
 from gearpair.bifurcations.doubling import doubled_orbit, doubling_cascade
 from gearpair.bifurcations.locating import Bifurcation
+from gearpair.bifurcations.moving import fold_shift, move_bifurcation
 from gearpair.bifurcations.orbits import NewtonStatus, PeriodicOrbit, find_orbits, periodic_orbit
 from gearpair.bifurcations.structure import (
     bifurcation_table,
@@ -32,6 +33,8 @@ __all__ = [
     "doubling_cascade",
     "find_branches",
     "find_orbits",
+    "fold_shift",
+    "move_bifurcation",
     "periodic_orbit",
     "stable_ranges",
 ]

@@ -61,7 +61,7 @@ class BifurcationCurve:
         )
 
 
-class _CurveProblem(OrbitProblem):
+class CurveProblem(OrbitProblem):
     """The orbit's two equations and the bifurcation's own, in scaled (x, v, first, second parameter)."""
 
     def __init__(self, bifurcation: Bifurcation, scales: dict[str, float]) -> None:
@@ -157,7 +157,7 @@ def continue_bifurcation(
             raise ValueError(
                 f"bounds of {name} must enclose the bifurcation's {osc.parameter(name)}, got ({lower}, {upper})"
             )
-    problem = _CurveProblem(bifurcation, {name: upper - lower for name, (lower, upper) in bounds.items()})
+    problem = CurveProblem(bifurcation, {name: upper - lower for name, (lower, upper) in bounds.items()})
     start, sizes = problem.unknowns(bifurcation.x, bifurcation.v), SIZES._replace(largest=largest_step)
     steps, ends = walk_both_ways(problem, start, list(bounds.values()), sizes, max_steps, over_kinks=over_kinks)
     first, second = bounds

@@ -85,7 +85,7 @@ def bifurcations_between(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle]) 
     found = [(kind, at, at.data.contacts, at.data.contacts) for kind, at in located if at is not None]
     found += _grazings(problem, a, b)
     found.sort(key=lambda item: float(np.linalg.norm(item[1].u - a.u)))
-    return [_bifurcation(problem, *item) for item in found]
+    return [bifurcation_at(problem, *item) for item in found]
 
 
 def _located(problem: OrbitProblem, a: Step[Cycle], b: Step[Cycle], kind: Kind) -> Step[Cycle] | None:
@@ -123,7 +123,10 @@ def _grazings(
     return [] if middle is None else _grazings(problem, a, middle) + _grazings(problem, middle, b)
 
 
-def _bifurcation(problem: OrbitProblem, kind: Kind, at: Step[Cycle], before: Contacts, after: Contacts) -> Bifurcation:
+def bifurcation_at(
+    problem: OrbitProblem, kind: Kind, at: Step[Cycle], before: Contacts, after: Contacts
+) -> Bifurcation:
+    """What a solution of its equations is, with the contacts before and after it along the branch."""
     point = at.data.points[np.argmin(at.data.points[:, 0])]
     x_min, x_max = at.data.x_min, at.data.x_max
     if kind == "grazing":  # touching is not yet impacting

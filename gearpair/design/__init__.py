@@ -2,12 +2,14 @@
 
 from gearpair.design.charts import speed_chart
 from gearpair.design.dynamic_factor import IsoDynamicFactor, iso_dynamic_factor
+from gearpair.design.identification import Identification, identify
 from gearpair.design.idle import IdleRattle, idle_oscillator, idle_rattle
 from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import LinearResponse, linear_response
 from gearpair.design.load_maps import duty_cycle, load_map
 from gearpair.design.loads import measure_motion
 from gearpair.design.passages import load_change, run_up, schedule
+from gearpair.design.populations import population
 from gearpair.design.sensitivities import sensitivity
 from gearpair.design.shocks import shock_margin
 from gearpair.design.sounds import Sound, sound, write_wav
@@ -15,6 +17,7 @@ from gearpair.design.speed_ranges import SpeedRange, speed_range_table, speeds_t
 from gearpair.design.verdicts import Verdict, verdict
 
 __all__ = [
+    "Identification",
     "IdleRattle",
     "IsoDynamicFactor",
     "Jump",
@@ -24,6 +27,7 @@ __all__ = [
     "Verdict",
     "duty_cycle",
     "find_jumps",
+    "identify",
     "idle_oscillator",
     "idle_rattle",
     "iso_dynamic_factor",
@@ -31,6 +35,7 @@ __all__ = [
     "load_change",
     "load_map",
     "measure_motion",
+    "population",
     "run_up",
     "schedule",
     "sensitivity",

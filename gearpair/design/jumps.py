@@ -1,12 +1,12 @@
 """Where a run up or down leaves the motion that it was on."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
 
 from gearpair._checks import checked
-from gearpair.bifurcations import continue_orbit, periodic_orbit
+from gearpair.bifurcations import Bifurcation, continue_orbit, periodic_orbit
 from gearpair.motion.steady import SteadyState
 
 SMOOTH = 0.1  # change of X_min and X_max, relative to their distance, that no jump is needed for
@@ -30,6 +30,8 @@ class Jump:
         is not periodic, or its branch goes on: the jump is then known to the step of the run alone.
     before, after : str
         The motions.
+    bifurcation : Bifurcation or None
+        That at which the motion ends; None between speeds.
     """
 
     run: str
@@ -37,6 +39,7 @@ class Jump:
     kind: str
     before: str
     after: str
+    bifurcation: Bifurcation | None = field(default=None, repr=False, compare=False)
 
 
 @checked
@@ -92,7 +95,7 @@ def _differ(before: SteadyState, after: SteadyState, smooth: float = SMOOTH) -> 
 
 def _located(run: str, before: SteadyState, after: SteadyState) -> Jump | None:
     here, there = before.oscillator.mesh_frequency, after.oscillator.mesh_frequency
-    names = [str(state.motion.kind) for state in (before, after)]
+    names = str(before.motion.kind), str(after.motion.kind)
     middle = Jump(run, 0.5 * (here + there), ON_GRID, *names)
     if before.period is None:
         return middle
@@ -120,4 +123,4 @@ def _located(run: str, before: SteadyState, after: SteadyState) -> Jump | None:
     end = ends[0][0]
     if end.kind == "flip" and after.period == 2 * before.period and not _differ(before, after, 3.0 * SMOOTH):
         return None
-    return Jump(run, end.value, end.kind, *names)
+    return Jump(run, end.value, end.kind, *names, end)

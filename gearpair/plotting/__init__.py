@@ -53,6 +53,7 @@ from gearpair.plotting.methods import (
     work_precision,
 )
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
+from gearpair.plotting.service import fold_curves, rattling_share
 from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, load_map, rattle, tooth_loads, tornado
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.survivors import survival_curve, survival_curves
@@ -92,6 +93,7 @@ __all__ = [
     "extremes",
     "finite_element_check",
     "finite_exponents",
+    "fold_curves",
     "gallery",
     "harmonics",
     "impact_map",
@@ -114,6 +116,7 @@ __all__ = [
     "range_lanes",
     "range_strips",
     "rattle",
+    "rattling_share",
     "reached_motions",
     "score_ranking",
     "spectrum",

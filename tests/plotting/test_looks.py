@@ -46,6 +46,7 @@ def made(name):
         ),
         "drawn": lambda: gp.methods.runge_kutta_sweep(OSC, "mesh_frequency", made("sweep").mesh_frequency),
         "fe": lambda: gp.teeth.finite_element_bodies()["34"],
+        "identified": lambda: gp.design.identify(drive.at_phase(0.3), 8598.25, 7345.0),
         "idle": lambda: gp.design.idle_rattle(
             drive, np.linspace(300.0, 1500.0, 5), order=2.0, pinion_swing_deg=0.05, drag_torque_nm=0.4
         ),
@@ -54,6 +55,9 @@ def made(name):
         "map": lambda: gp.parameter_map(OSC, grid, measures=True),
         "motion": lambda: gp.trajectory(OSC, 1.0, 0.0, 8),
         "plane": lambda: gp.basins(OSC, **PLANE),
+        "population": lambda: gp.design.population(
+            drive, {"transmission_error_um": (0.5, 8.0), "backlash_um": (60.0, 100.0)}, SPEEDS, n=16
+        ),
         "precision": lambda: gp.methods.work_precision(OSC, 1.0, 0.0, n_starts=2, tolerances=[1e-6, 1e-7]),
         "ranked": lambda: ranking(run_trials([PRINTED, SWAPPED], [Protocol("down")], 6)),
         "reached": lambda: tuple(
@@ -97,6 +101,7 @@ ON_AXES = {
     "exponents": lambda ax, **k: plotting.exponents(made("sweep"), ax, **k),
     "extremes": lambda ax, **k: plotting.extremes(made("sweep"), ax, **k),
     "finite_exponents": lambda ax, **k: plotting.finite_exponents(made("plane"), ax, **k),
+    "fold_curves": lambda ax, **k: plotting.fold_curves(made("identified"), ax, **k),
     "harmonics": lambda ax, **k: plotting.harmonics(OSC.stiffness, 5, ax, **k),
     "impact_map": lambda ax, **k: plotting.impact_map(made("map"), ax, **k),
     "impact_states": lambda ax, **k: plotting.impact_states(made("plane"), ax, **k),
@@ -121,6 +126,7 @@ ON_AXES = {
         {"article": published.ranges("mesh_frequency"), "found": made("sweep")}, ax, **k
     ),
     "rattle": lambda ax, **k: plotting.rattle(made("idle"), ax, **k),
+    "rattling_share": lambda ax, **k: plotting.rattling_share(made("population"), ax, **k),
     "reached_motions": lambda ax, **k: plotting.reached_motions(made("reached")[0][0], ax, **k),
     "score_ranking": lambda ax, **k: plotting.score_ranking(made("ranked"), {"swapped": SWAPPED}, ax, **k),
     "spectrum": lambda ax, **k: plotting.spectrum(gp.spectrum(made("motion")), ax, period=2, **k),
