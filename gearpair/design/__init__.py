@@ -7,6 +7,7 @@ from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import LinearResponse, linear_response
 from gearpair.design.loads import measure_motion
 from gearpair.design.passages import load_change, run_up, schedule
+from gearpair.design.players import Player
 from gearpair.design.sensitivities import sensitivity
 from gearpair.design.shocks import shock_margin
 from gearpair.design.sounds import Sound, sound, write_wav
@@ -17,6 +18,7 @@ __all__ = [
     "IsoDynamicFactor",
     "Jump",
     "LinearResponse",
+    "Player",
     "Sound",
     "SpeedRange",
     "find_jumps",

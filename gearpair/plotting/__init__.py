@@ -53,6 +53,7 @@ from gearpair.plotting.methods import (
     work_precision,
 )
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
+from gearpair.plotting.passages import order_map, passage_factor, passage_path, shock_margins
 from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, rattle, tooth_loads, tornado
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
 from gearpair.plotting.survivors import survival_curve, survival_curves
@@ -103,7 +104,10 @@ __all__ = [
     "mesh_curves",
     "motion_colour",
     "motion_shares",
+    "order_map",
     "pair_stiffness",
+    "passage_factor",
+    "passage_path",
     "per_width",
     "period_map",
     "phase_portrait",
@@ -115,6 +119,7 @@ __all__ = [
     "rattle",
     "reached_motions",
     "score_ranking",
+    "shock_margins",
     "spectrum",
     "step_convergence",
     "stiffness_trends",
