@@ -32,6 +32,7 @@ STANDS_FOR = {
 LISTS = {"long_speeds": "mesh_frequency"}  # of values of a scalar
 STARTS = ("first_start", "second_start")
 SPEEDS = ("lowest_rpm", "highest_rpm")  # none: the chapter's choice
+SECONDS = ("ramp_seconds", "tip_in_seconds")
 RANGES = (("lowest", "highest"), ("lower", "upper"), ("frequency_from", "frequency_to"), SPEEDS)
 AXES = ("n_values", "n_fine", "n_x", "n_v", "n_speeds")  # from one end to another
 FEWEST = dict.fromkeys(AXES, 2) | {"n_transient": 0, "n_starts": 0, "n_speeds": 5}  # of another n_... : 1
@@ -123,16 +124,18 @@ def _check_as(name: str, check: Callable[[], object]) -> None:
 
 def _check_alone(name: str, value: Any) -> None:
     """What can be said of one parameter by itself."""
-    if name.startswith("n_") or name == "longest":
+    if name.startswith("n_") or name in ("longest", "dip_cycles"):
         if isinstance(value, int | float):  # a chapter may call an array of its own n_...
             check_count(name, value, at_least=FEWEST.get(name, 1))
     elif name in STARTS:
         if len(value) != 2:
             raise ValueError(f"{name} must be the two numbers X and X', got {value!r}")
         _check_as(name, lambda: check_start(*value))
-    elif name in ("start_x", "start_v"):
+    elif name in ("start_x", "start_v", "coast_torque_nm"):
         check_number(name, value)
-    elif name in ("x_reach", "v_reach", "pinion_torque_nm", "weak_damping") or (name in SPEEDS and value is not None):
+    elif name in ("x_reach", "v_reach", "pinion_torque_nm", "weak_damping", *SECONDS) or (
+        name in SPEEDS and value is not None
+    ):
         check_number(name, value, above=0.0)
     elif name in ("narrowest", "base_pitch_um", "profile_um", *ADDED):
         check_number(name, value, at_least=0.0)

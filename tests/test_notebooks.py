@@ -52,6 +52,10 @@ CHANGED = {
         },
         **{"pinion_shift": "0.2", "gear_added_inertia_kg_m2": "0.01", "n_speeds": "31", "n_starts": "3"},
     },
+    "in_service": {  # a car's pair, whose teeth part for a moment
+        **{"pinion_teeth": "25", "gear_teeth": "71", "module_mm": "2", "pinion_torque_nm": "20"},
+        **{"n_speeds": "31", "n_starts": "2", "ramp_seconds": "0.2", "dip_cycles": "1", "coast_torque_nm": "-5"},
+    },
 }
 # A value that the library refuses, and its sentence.
 REFUSED = {
@@ -65,6 +69,7 @@ REFUSED = {
     "method": ("mesh_frequency", "0", "mesh_frequency must be a finite number above 0, got 0.0"),
     "reproduction": ("n_values", "1", "n_values must be a whole number of at least 2, got 1"),
     "speed_chart": ("pinion_teeth", "8", "contact ratio is 0.91"),
+    "in_service": ("dip_cycles", "0", "dip_cycles must be a whole number of at least 1, got 0"),
     "library": ("damping_ratio", "-1", "damping_ratio must be a finite number at least 0 and at most 100, got -1.0"),
     "impacts": ("error_amplitude", "-1", "error_amplitude must be a finite number at least 0, got -1.0"),
 }

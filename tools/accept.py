@@ -21,7 +21,7 @@ def accept_outputs(book: Book, *, progress: bool = True) -> list[str]:
     """Re-execute every source notebook with its defaults and store the new outputs.
 
     All chapters run before any file is written. What differs from run to run or from machine to machine is not
-    stored: images, what was written to stderr, papermill's notes.
+    stored: images, sounds, what was written to stderr, papermill's notes.
 
     Returns
     -------
@@ -71,7 +71,11 @@ def _stable_output(output: nbformat.NotebookNode) -> nbformat.NotebookNode | Non
     if output.get("name") == "stderr":
         return None
     if "data" in output:
-        output.data = {mime: data for mime, data in output.data.items() if not mime.startswith("image/")}
+        output.data = {
+            mime: data
+            for mime, data in output.data.items()
+            if not mime.startswith("image/") and "data:audio/" not in data
+        }
         output.metadata = {key: value for key, value in output.metadata.items() if key == "scrapbook"}
     return output
 

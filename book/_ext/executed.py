@@ -49,7 +49,7 @@ EVIDENCE = {  # the section, below book/, where the items are tested or used
     "chapters/impacts#the-criteria": "I1 I2 I3",
     "chapters/impacts#the-plane-of-starts": "I4 C3",
     "chapters/impacts#start-up-history": "I5",
-    "conclusions#what-follows-for-an-engineer": "C5",
+    "chapters/in_service#what-the-article-advises": "C5",
 }
 
 

@@ -9,6 +9,7 @@ from gearpair.design.linear import LinearResponse, linear_response
 from gearpair.design.load_maps import duty_cycle, load_map
 from gearpair.design.loads import measure_motion
 from gearpair.design.passages import load_change, run_up, schedule
+from gearpair.design.players import Player
 from gearpair.design.populations import population
 from gearpair.design.sensitivities import sensitivity
 from gearpair.design.shocks import shock_margin
@@ -22,6 +23,7 @@ __all__ = [
     "IsoDynamicFactor",
     "Jump",
     "LinearResponse",
+    "Player",
     "Sound",
     "SpeedRange",
     "Verdict",

@@ -41,7 +41,7 @@ def run_up(
     to_rpm: float,
     seconds: float,
     *,
-    start: SteadyState | None = None,
+    start: SteadyState | tuple[float, float] | None = None,
     accelerates: bool = True,
     samples_per_period: int = 0,
 ) -> xr.Dataset:
@@ -84,7 +84,7 @@ def load_change(
     torque_nm: Course,
     seconds: float,
     *,
-    start: SteadyState | None = None,
+    start: SteadyState | tuple[float, float] | None = None,
     samples_per_period: int = 0,
 ) -> xr.Dataset:
     """The drive at its own speed while its torque changes: tip-in, tip-out, reversal.
@@ -127,7 +127,7 @@ def schedule(
     *,
     speed_rpm: Course,
     torque_nm: Course | None = None,
-    start: SteadyState | None = None,
+    start: SteadyState | tuple[float, float] | None = None,
     accelerates: bool = True,
     samples_per_period: int = 0,
 ) -> xr.Dataset:
@@ -143,9 +143,9 @@ def schedule(
         is at 0 s; the last value stays.
     torque_nm : float or sequence of (float, float), optional
         Torque of the pinion that its load balances, likewise; that of `drive` when not given.
-    start : SteadyState, optional
-        The motion it comes from, at the first speed and torque; the steady motion from rest at the static deflection
-        when not given.
+    start : SteadyState or (float, float), optional
+        The motion it comes from, at the first speed and torque, or X and X'; the steady motion from rest at the static
+        deflection when not given.
     accelerates : bool
         Whether the mesh carries what accelerates the driven side besides its load.
     samples_per_period : int
@@ -194,8 +194,9 @@ def schedule(
         meshing(torque).replace(mesh_frequency=frequency, mean_force=force)
         for torque, frequency, force in zip(cycles.torque.tolist(), frequencies.tolist(), forces.tolist(), strict=True)
     ]
-    state = start or steady_state(oscillators[0])
-    x, v = state.points[0].tolist()
+    if not isinstance(start, tuple):
+        start = tuple((start or steady_state(oscillators[0])).points[0].tolist())
+    x, v = start
     run = passage(oscillators, x, v, samples_per_period=samples_per_period)
     mm_s = drive.half_backlash_m * drive.natural_frequency_rad_s * 1e3
     columns: dict[str, Any] = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -141,12 +141,12 @@ def sound(
 
 
 @checked
-def write_wav(path: str | Path, heard: Sound) -> None:
+def write_wav(path: str | Path | BinaryIO, heard: Sound) -> None:
     """Write a sound as a WAV file of 16 bits.
 
     Parameters
     ----------
-    path : str or Path
+    path : str, Path or file open for writing bytes
     heard : Sound
 
     Examples

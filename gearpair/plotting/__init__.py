@@ -53,6 +53,7 @@ from gearpair.plotting.methods import (
     work_precision,
 )
 from gearpair.plotting.motions import gallery, phase_portrait, poincare_section, portrait, spectrum, time_history
+from gearpair.plotting.passages import order_map, passage_factor, passage_path, shock_margins
 from gearpair.plotting.service import fold_curves, rattling_share
 from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, load_map, rattle, tooth_loads, tornado
 from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
@@ -106,7 +107,10 @@ __all__ = [
     "mesh_curves",
     "motion_colour",
     "motion_shares",
+    "order_map",
     "pair_stiffness",
+    "passage_factor",
+    "passage_path",
     "per_width",
     "period_map",
     "phase_portrait",
@@ -119,6 +123,7 @@ __all__ = [
     "rattling_share",
     "reached_motions",
     "score_ranking",
+    "shock_margins",
     "spectrum",
     "step_convergence",
     "stiffness_trends",

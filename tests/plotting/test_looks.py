@@ -54,6 +54,7 @@ def made(name):
         "manifolds": lambda: gp.manifolds(gp.periodic_orbit(OSC, -1.5688, -1.0135, 1), length=3.0),
         "map": lambda: gp.parameter_map(OSC, grid, measures=True),
         "motion": lambda: gp.trajectory(OSC, 1.0, 0.0, 8),
+        "passage": lambda: gp.design.run_up(drive, 3000.0, 4000.0, 0.1, samples_per_period=16),
         "plane": lambda: gp.basins(OSC, **PLANE),
         "population": lambda: gp.design.population(
             drive, {"transmission_error_um": (0.5, 8.0), "backlash_um": (60.0, 100.0)}, SPEEDS, n=16
@@ -64,6 +65,7 @@ def made(name):
             reached([SWAPPED], name, 3, n_discarded=100) for name in ("mesh_frequency", "damping_ratio")
         ),
         "saddle": lambda: gp.ensembles.chaotic_saddle(OSC.replace(mesh_frequency=1.09), [-1.0, 0.0, 1.0, 2.0], -1.0),
+        "shocks": lambda: gp.design.shock_margin(drive, [3000.0, 3100.0], n_phases=1, n_starts=0),
         "segment": lambda: next(s for s in gp.methods.segments(OSC, 1.0, 0.0) if s.crossing is not None),
         "sensitivity": lambda: gp.design.sensitivity(drive, [2000.0, 3000.0], {"damping_ratio": (0.02, 0.06)}),
         "shares": lambda: gp.ensembles.motion_shares(OSC, "damping_ratio", [0.02, 0.1, 0.2], [-2.0, 0.0, 1.0], [0.0]),
@@ -114,6 +116,9 @@ ON_AXES = {
     ),
     "mesh_curves": lambda ax, **k: plotting.mesh_curves(MESHES | {"again": MESH}, ax, **k),
     "motion_shares": lambda ax, **k: plotting.motion_shares(made("shares"), ax, **k),
+    "order_map": lambda ax, **k: plotting.order_map(made("passage"), ax, **k),
+    "passage_factor": lambda ax, **k: plotting.passage_factor(made("passage"), made("chart"), ax, **k),
+    "passage_path": lambda ax, **k: plotting.passage_path(made("passage"), made("plane"), ax, **k),
     "pair_stiffness": lambda ax, **k: plotting.pair_stiffness(MESH, ax, **k),
     "period_map": lambda ax, **k: plotting.period_map(made("map"), ax, **k),
     "phase_portrait": lambda ax, **k: plotting.phase_portrait(made("motion"), ax, **k),
@@ -129,6 +134,7 @@ ON_AXES = {
     "rattling_share": lambda ax, **k: plotting.rattling_share(made("population"), ax, **k),
     "reached_motions": lambda ax, **k: plotting.reached_motions(made("reached")[0][0], ax, **k),
     "score_ranking": lambda ax, **k: plotting.score_ranking(made("ranked"), {"swapped": SWAPPED}, ax, **k),
+    "shock_margins": lambda ax, **k: plotting.shock_margins(made("shocks"), ax, **k),
     "spectrum": lambda ax, **k: plotting.spectrum(gp.spectrum(made("motion")), ax, period=2, **k),
     "step_convergence": lambda ax, **k: plotting.step_convergence(made("segment"), ax, **k),
     "stiffness_wave": lambda ax, **k: plotting.stiffness_wave(OSC.stiffness, ax, **k),
@@ -151,7 +157,10 @@ OF_THEIR_OWN = {
     "under_load": lambda **k: plotting.under_load({"2 kN": LOADED}, rows(3), **k),
 }
 CALLS = {name: lambda call=call, **k: [call(None, **k)] for name, call in ON_AXES.items()} | OF_THEIR_OWN
-IMAGES = {"basins", "finite_exponents", "impact_map", "impact_states", "load_map", "period_map", "quantity_map"}
+IMAGES = {
+    *("basins", "finite_exponents", "impact_map", "impact_states"),
+    *("load_map", "order_map", "period_map", "quantity_map"),
+}
 BY_STATE = {"range_strips", "dynamic_factors"}  # whose words stand on bars, which are as light in every style
 NO_PICTURES = {"add_motion_legend", "motion_colour", "per_width"}
 
@@ -197,7 +206,7 @@ def test_a_colour_and_a_width_reach_what_is_drawn(name):
 def test_a_transparency_reaches_an_image(name):
     (image,) = parts(CALLS[name](alpha=0.25), (QuadMesh, AxesImage))
     assert image.get_alpha() == 0.25
-    if name in ("finite_exponents", "load_map", "quantity_map"):
+    if name in ("finite_exponents", "load_map", "order_map", "quantity_map"):
         (image,) = parts(CALLS[name](cmap="magma"), (QuadMesh, AxesImage))
         assert image.get_cmap().name == "magma"
 
