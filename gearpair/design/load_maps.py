@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from tqdm import tqdm
 
-from gearpair._checks import check_number, checked
+from gearpair._checks import check_array, check_number, checked
 from gearpair.design.charts import check_rising, check_speeds, speed_chart
 from gearpair.design.found import KEPT, LOSSES, UNBOUNDED
 from gearpair.drive import GearDrive
@@ -96,14 +95,14 @@ def _largest_force(chart: xr.Dataset) -> NDArray[np.float64]:
 
 
 @checked
-def duty_cycle(found: xr.Dataset, points: Sequence[tuple[float, float, float]]) -> xr.Dataset:
+def duty_cycle(found: xr.Dataset, points: ArrayLike) -> xr.Dataset:
     """What a drive meets at a list of operating points, the worst first.
 
     Parameters
     ----------
     found : xarray.Dataset
         Of `load_map`.
-    points : sequence of (torque, speed, time)
+    points : array_like of (torque, speed, time), shape (n, 3)
         Of the pinion, in N m and rpm, within the map; the time as a share or in any unit, at least 0.
 
     Returns
@@ -150,16 +149,15 @@ def duty_cycle(found: xr.Dataset, points: Sequence[tuple[float, float, float]]) 
     return xr.Dataset(variables, {"point": order}, dict(found.attrs))
 
 
-def _operating_points(points: Sequence[tuple[float, float, float]]) -> NDArray[np.float64]:
+def _operating_points(points: ArrayLike) -> NDArray[np.float64]:
     """Torque, speed and time of each point, shape (n, 3), or a ValueError."""
-    for i, point in enumerate(points):
-        if len(point) != 3:
-            raise ValueError(f"points[{i}] must be a torque, a speed and a time, got {point!r}")
-        for name, value, limits in zip(("torque", "speed", "time"), point, ({}, {}, {"at_least": 0.0}), strict=True):
-            check_number(f"the {name} of points[{i}]", value, **limits)
-    given = np.array(points, dtype=float).reshape(-1, 3)
-    if not given[:, 2].sum() > 0.0:
-        raise ValueError(f"points must be at least one with a time above 0, got {len(given)} with none")
+    given = check_array("points", points)
+    if given.ndim != 2 or given.shape[1] != 3:
+        raise ValueError(f"points must be rows of a torque, a speed and a time, got shape {given.shape}")
+    for i, time in enumerate(given[:, 2].tolist()):
+        check_number(f"the time of points[{i}]", time, at_least=0.0)
+    if not given[:, 2].any():
+        raise ValueError("points must have a time above 0 among them, got none")
     return given
 
 

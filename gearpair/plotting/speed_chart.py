@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
-from gearpair._checks import check_count, check_reach, checked
+from gearpair._checks import check_count, check_number, check_reach, checked
 from gearpair.design import IdleRattle, IsoDynamicFactor
 from gearpair.design.found import BOTH, FLOAT, HISTORY, KEPT, LOSSES, RARE
 from gearpair.design.sensitivities import OUTCOMES
@@ -236,7 +236,7 @@ def load_map(found: xr.Dataset, ax: Axes | None = None, *, largest: float | None
     found : xarray.Dataset
         Of `gearpair.design.load_map`.
     largest : float, optional
-        Where the colours end; the largest factor when not given.
+        Where the colours end, above 1; the largest factor when not given.
 
     Examples
     --------
@@ -249,7 +249,8 @@ def load_map(found: xr.Dataset, ax: Axes | None = None, *, largest: float | None
     """
     ax = new_axes(ax, HEIGHT)
     speed, torque, factor = found.speed.values, found.torque.values, found.dynamic_factor.values
-    top = max(float(np.nanmax(factor, initial=1.0)), 1.1) if largest is None else largest
+    top = max(float(np.nanmax(factor, initial=1.0)), 1.1)
+    top = top if largest is None else check_number("largest", largest, above=1.0)
     image = look_of(QuadMesh, look, ENDS, cmap="cividis", norm=LogNorm(1.0, top), rasterized=True)
     shown = ax.pcolormesh(speed, torque, factor, shading="nearest", **image)
     bar = ax.figure.colorbar(shown, ax=ax, label=axis_label("dynamic_factor"), pad=0.01)

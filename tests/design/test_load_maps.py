@@ -87,9 +87,10 @@ def test_what_leaves_the_model_is_the_worst_whatever_its_force(found):
 @pytest.mark.parametrize(
     ("points", "sentence"),
     [
-        ([], "points must be at least one with a time above 0, got 0 with none"),
-        ([(60.0, SPEEDS[0], 0.0)], "points must be at least one with a time above 0, got 1 with none"),
-        ([(60.0, SPEEDS[0])], "points[0] must be a torque, a speed and a time, got (60.0, "),
+        ([], "points must be rows of a torque, a speed and a time, got shape (0,)"),
+        ([(60.0, SPEEDS[0], 0.0)], "points must have a time above 0 among them, got none"),
+        ([(60.0, SPEEDS[0])], "points must be rows of a torque, a speed and a time, got shape (1, 2)"),
+        ([(60.0, None, 1.0)], "points must be real numbers, got None"),
         ([(130.0, SPEEDS[0], 1.0)], "the torque of a point must be"),
         ([(60.0, 1.0, 1.0)], "the speed of a point must be"),
         ([(60.0, SPEEDS[0], -1.0)], "the time of points[0] must be"),
