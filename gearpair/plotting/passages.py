@@ -60,10 +60,10 @@ def passage_factor(run: xr.Dataset, chart: xr.Dataset | None = None, ax: Axes | 
     over = _abscissa(run)
     if chart is not None:
         for way, dash in (("up", "-"), ("down", (0, (2.5, 1.2)))):
-            steady = {"color": legible(ax, STEADY), "linewidth": 2.2, "linestyle": dash, "zorder": 1}
+            steady: dict[str, Any] = {"color": legible(ax, STEADY), "linewidth": 2.2, "linestyle": dash, "zorder": 1}
             ax.plot(chart.speed, chart.dynamic_factor.sel(run=way), **steady, label=f"steady, run {way}")
     rises = run.speed.values[-1] >= run.speed.values[0]
-    usual = {"color": legible(ax, INK if rises else FALLING), "linewidth": 1.1, "zorder": 2}
+    usual: dict[str, Any] = {"color": legible(ax, INK if rises else FALLING), "linewidth": 1.1, "zorder": 2}
     name = "passage" if over == "time" else "run up" if rises else "coast-down"
     highest = maximum_filter1d(run.dynamic_factor.values, TOGETHER)
     ax.plot(run[over].values, highest, **look_of(Line2D, look, label=name, **usual))
@@ -104,7 +104,7 @@ def order_map(run: xr.Dataset, ax: Axes | None = None, *, n_orders: int = 4, **l
     place = np.interp(time, run.time.values, run[over].values)
     image = look_of(QuadMesh, look, ENDS, rasterized=True, cmap="Greys", vmin=DEEPEST, vmax=0.0)
     drawn = ax.pcolormesh(place, frequency / 1000.0, level, shading="nearest", **image)
-    line = {"color": legible(ax, FALLING), "linewidth": 0.6, "alpha": 0.8}
+    line: dict[str, Any] = {"color": legible(ax, FALLING), "linewidth": 0.6, "alpha": 0.8}
     last = int(np.argmax(run[over].values))
     for order in range(1, n_orders + 1):
         ax.plot(run[over].values, order * mesh / 1000.0, **line)
@@ -144,7 +144,14 @@ def passage_path(run: xr.Dataset, basins: xr.Dataset | None = None, ax: Axes | N
     over = ax.has_data()
     limits = {"xlim": ax.get_xlim(), "ylim": ax.get_ylim()} if over else {}
     ink, halo = legible(ax, PATH), [withStroke(linewidth=2.2, foreground=paper(ax))]
-    usual = {"color": ink, "linewidth": 0.7, "marker": ".", "markersize": 3.5, "path_effects": halo, "zorder": 3}
+    usual: dict[str, Any] = {
+        "color": ink,
+        "linewidth": 0.7,
+        "marker": ".",
+        "markersize": 3.5,
+        "path_effects": halo,
+        "zorder": 3,
+    }
     (path,) = ax.plot(run.x.values, run.v.values, **look_of(Line2D, look, label="path", **usual))
     marks = [
         ax.plot(
