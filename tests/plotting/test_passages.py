@@ -49,8 +49,8 @@ def test_the_levels_of_a_steady_motion_are_the_lines_of_its_force():
     mesh = 7000.0 / 60.0 * 28
     found = [middle[np.abs(frequency - order * mesh) < 0.2 * mesh].max() for order in (1, 2, 3)]
     lines = np.abs(np.fft.rfft(steady.sample_force.values[-1]))[1:4]
-    assert np.diff(found) == pytest.approx(np.diff(20.0 * np.log10(lines)), abs=1.42)  # a Hann window between two bins
-    assert middle[np.abs(frequency - 1.5 * mesh) < 0.2 * mesh].max() < -60.0
+    assert np.diff(found) == pytest.approx(np.diff(20.0 * np.log10(lines)), abs=1.42)  # Hann, between bins
+    assert middle[np.abs(frequency - 1.5 * mesh) < 0.2 * mesh].max() < -50.0
 
 
 def test_an_order_map_has_the_mesh_orders_as_lines_and_names_them(run):
