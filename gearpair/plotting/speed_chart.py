@@ -1,6 +1,7 @@
 """Pictures of a drive over its speeds."""
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -111,10 +112,11 @@ def dynamic_factors(
 
 def _mesh_hertz(ax: Axes, teeth: int) -> None:
     """A second axis below, the mesh frequency in hertz."""
-    below = ax.secondary_xaxis(-0.16, functions=(lambda rpm: rpm * teeth / 60.0, lambda hertz: hertz * 60.0 / teeth))
-    below.set_xlabel("mesh frequency (Hz)", fontsize=ax.xaxis.label.get_size(), color=ax.xaxis.label.get_color())
+    per_rpm = teeth / 60.0
+    below = ax.secondary_xaxis(-0.16, functions=(partial(np.multiply, per_rpm), partial(np.multiply, 1.0 / per_rpm)))
+    below.set_xlabel("mesh frequency (Hz)", fontsize=ax.xaxis.label.get_fontsize(), color=ax.xaxis.label.get_color())
     like = ax.get_xticklabels()[0]
-    below.tick_params(labelsize=like.get_size(), labelcolor=like.get_color())
+    below.tick_params(labelsize=like.get_fontsize(), labelcolor=like.get_color())
 
 
 def _mark_service(ax: Axes, service_rpm: Sequence[float]) -> None:
