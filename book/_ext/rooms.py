@@ -29,7 +29,7 @@ SAID = (
     (r"<factory>", "..."),
 )
 
-MODULES = ("oscillator", "stiffness", "harmonics", "drive", "scales", "quantities", "table", "parameters")
+MODULES = ("oscillator", "stiffness", "harmonics", "drive", "scales", "drive_file", "quantities", "table", "parameters")
 FOLDERS = (
     "teeth",
     "motion",

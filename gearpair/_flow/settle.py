@@ -104,7 +104,7 @@ def follow(
 @kernel
 def floats(cells: Cells, x: float, v: float, work: Scratch) -> bool:
     """Whether a motion repeats within the backlash, as only without a mean force: one of a family, shifted at will."""
-    if cells.flight_damping == 0.0:  # a drift would not die
+    if cells.flight_damping == 0.0 and cells.damping_ratio == 0.0:  # no drift would ever have died
         return False
     begin_reach(work.reach, x)
     status, x1, v1 = walk(cells, x, v, 1, work.series, None, work.reach)

@@ -25,6 +25,7 @@ OF_PAIR = (
     *("youngs_modulus_gpa", "poisson_ratio", "density_kg_m3"),
     *(f"{who}_{name}" for who in GEARS for name in ("shift", "face_width_mm", "bore_ratio", "tip_shortening")),
 )
+AFTERWARDS = ("error_phase_rad", "error_harmonics", "pinion_inertia_kg_m2", "gear_inertia_kg_m2")  # by `replace`
 # What a default says nothing of, once this is given.
 INSTEAD = {
     **dict.fromkeys(("pinion_shift", "gear_shift"), "centre_distance_mm"),
@@ -141,8 +142,7 @@ def read_drive_file(path: str | Path) -> DriveFile:
             notes.append(f"backlash {0.5 * (low + high):.4g} um, the middle of what the allowances leave")
         torque = given.get("pinion_torque_nm", ())
         torques = torque if isinstance(torque, tuple) else (torque,)
-        handed_on = "error_phase_rad", "error_harmonics", "pinion_inertia_kg_m2", "gear_inertia_kg_m2"
-        changes = {name: given[name] for name in handed_on if name in given}
+        changes = {name: given[name] for name in AFTERWARDS if name in given}
         damping = given.get("damping_ratio", ENTRIES["damping_ratio"].default)
         keywords: dict[str, Any] = {
             "pinion_torque_nm": torques[0] if torques else 0.0,

@@ -123,9 +123,8 @@ def dynamic_factors(
 
 def _mesh_hertz(ax: Axes, teeth: int) -> None:
     """A second axis below, the mesh frequency in hertz."""
-    below = ax.secondary_xaxis(
-        -0.16, functions=(partial(np.multiply, teeth / 60.0), partial(np.multiply, 60.0 / teeth))
-    )
+    per_rpm = teeth / 60.0
+    below = ax.secondary_xaxis(-0.16, functions=(partial(np.multiply, per_rpm), partial(np.multiply, 1.0 / per_rpm)))
     below.set_xlabel("mesh frequency (Hz)", fontsize=ax.xaxis.label.get_fontsize(), color=ax.xaxis.label.get_color())
     like = ax.get_xticklabels()[0]
     below.tick_params(labelsize=like.get_fontsize(), labelcolor=like.get_color())

@@ -12,7 +12,6 @@ from gearpair.study.drive_answer import Answer
 from gearpair.study.errors import StudyError
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray as xr
 
 UNITS = {"1": "", "1/s": "_per_s", "mm/s": "_mm_per_s"}
@@ -38,8 +37,8 @@ def numbers(answer: Answer) -> xr.Dataset:
     return xr.Dataset(variables, coordinates, {"drive": repr(answer.drive)})
 
 
-def tidy(answer: Answer) -> pd.DataFrame:
-    """The numbers as rows, each column's unit in its name."""
+def tidy(answer: Answer) -> Any:
+    """The numbers as rows of a `pandas.DataFrame`, each column's unit in its name."""
     held = numbers(answer)
     frame = held.to_dataframe().reset_index()
     return frame.rename(columns={str(name): f"{name}{_unit(held[name].attrs)}" for name in held.variables})

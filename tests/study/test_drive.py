@@ -65,9 +65,9 @@ def test_verdict_report_and_numbers_say_the_same(small, capsys):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", LOADED)
 def test_pairs_of_all_kinds_run_from_files_under_both_signs_of_the_torque(name, capsys, tmp_path):
-    """Below the mesh resonance, from a tenth to a half; where nothing but the flank differs both signs agree."""
+    """Below the mesh resonance, from a tenth to a third; where nothing but the flank differs both signs agree."""
     drive = gp.GearDrive.from_file(PAIRS / f"{name}.yml")
-    few = FEW.format(0.5 * drive.resonance_rpm, 0.1 * drive.resonance_rpm)
+    few = FEW.format(0.33 * drive.resonance_rpm, 0.1 * drive.resonance_rpm)
     text = re.sub(r"^service_rpm:.*$", "", (PAIRS / f"{name}.yml").read_text(encoding="utf-8"), flags=re.MULTILINE)
     (tmp_path / "pair.yml").write_text(text + few, encoding="utf-8")
     (tmp_path / "rig_error.csv").write_bytes((PAIRS / "rig_error.csv").read_bytes())
@@ -81,9 +81,9 @@ def test_pairs_of_all_kinds_run_from_files_under_both_signs_of_the_torque(name, 
 
 
 @pytest.mark.slow
-def test_the_drive_with_run_out_runs_too(capsys, tmp_path):
-    text = (PAIRS / "rig_50.yml").read_text(encoding="utf-8").replace("[340.0, -340.0]", "340.0")
-    text += "n_speeds: 2\nn_starts: 0\nlowest_rpm: 1500\nhighest_rpm: 1600\n"
+def test_a_drive_with_run_out_runs_too(capsys, tmp_path):
+    text = GEARS + "transmission_error_um: [[1, 4.0, 0.5]]\nshaft_orders: [[28, 10.0]]\ndamping_ratio: 0.2\n"
+    text += "pinion_torque_nm: 900\nn_speeds: 2\nn_starts: 0\nlowest_rpm: 1500\nhighest_rpm: 1600\n"
     (tmp_path / "pair.yml").write_text(text, encoding="utf-8")
     assert main(["drive", str(tmp_path / "pair.yml"), "--quiet"]) == 0
     assert "No phase had to be chosen" in capsys.readouterr().out
@@ -127,14 +127,12 @@ def test_a_verdict_tells_where_the_teeth_part():
         (["pair.yml", "--html", "out.txt"], "the output must have a name that ends in .html, got 'out.txt'"),
         (["pair.yml", "--csv", "nowhere/out.csv"], "there is no directory "),
         (["bad.yml", "--html", "out.html", "--csv", "out.csv"], "bad.yml: unknown name"),
-        (["low.yml"], "low.yml: the chart would begin at 90000 and end at 15007.3 rpm: give lowest_rpm or highest_rpm"),
+        (["low.yml"], "low.yml: mesh_frequency must be at least "),
     ],
 )
 def test_bad_input_gets_one_sentence(small, capsys, words, sentence):
     (small.parent / "bad.yml").write_text("pinion_teth: 3\n")
-    (small.parent / "low.yml").write_text(GEARS + "iso_grade: 6\npinion_torque_nm: 1\nhighest_rpm: 5\nlowest_rpm: 3\n")
-    if words == ["low.yml"]:
-        sentence = "low.yml: mesh_frequency must be at least"
+    (small.parent / "low.yml").write_text(GEARS + "iso_grade: 6\npinion_torque_nm: 1\nlowest_rpm: 1.0e-6\n")
     before = sorted(path.name for path in small.parent.rglob("*"))
     assert main(["drive", *words]) == 1
     error = capsys.readouterr().err.splitlines()[-1]
