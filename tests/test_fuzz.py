@@ -127,20 +127,14 @@ CALLS = {
     },
     "design": {
         "duty_cycle": lambda: {"found": made("loads"), "points": [(60.0, 3000.0, 1.0)]},
+        "find_jumps": lambda: {"up": made("up"), "down": made("up")},
         "identify": lambda: {
             "drive": made("drive").at_phase(0.3),
-            "jump_up_rpm": 8598.25,
-            "jump_down_rpm": 7345.0,
+            "jump_up_rpm": 8598.0,
+            "jump_down_rpm": 6500.0,
             "damping_ratios": (0.19, 0.2),
             "errors_um": (1e-3, 2e-3),
         },
-        "population": lambda: {
-            "drive": made("drive"),
-            "spread": {"backlash_um": (60.0, 100.0)},
-            "speeds_rpm": SPEEDS,
-            "n": 2,
-        },
-        "find_jumps": lambda: {"up": made("up"), "down": made("up")},
         "idle_oscillator": lambda: {"drive": made("drive"), "speed_rpm": 800.0, **SWING},
         "idle_rattle": lambda: {"drive": made("drive"), "speeds_rpm": [800.0, 900.0], **SWING},
         "iso_dynamic_factor": lambda: {
@@ -164,6 +158,12 @@ CALLS = {
         "sensitivity": lambda: {"drive": made("drive"), "speeds_rpm": SPEEDS, "ranges": {"damping_ratio": (0.1, 0.2)}},
         "shock_margin": lambda: {"drive": made("drive"), "speeds_rpm": SPEEDS, "n_phases": 1, "n_starts": 1},
         "sound": lambda: {"drive": made("drive"), "motion": made("state"), "seconds": 0.2, "rate": 4000},
+        "population": lambda: {
+            "drive": made("drive"),
+            "spread": {"backlash_um": (60.0, 100.0)},
+            "speeds_rpm": SPEEDS,
+            "n": 2,
+        },
         "speed_chart": lambda: {"drive": made("drive"), "speeds_rpm": SPEEDS, "n_starts": 1, "n_transient": 20},
         "speed_range_table": lambda: {"ranges": gp.design.speeds_to_avoid(made("chart"))},
         "speeds_to_avoid": lambda: {"chart": made("chart")},

@@ -19,6 +19,7 @@ from gearpair.motion.outcome import Outcome
 
 Array = NDArray[np.float64]
 HALF_WIDTH = 1.959963984540054  # of an interval of 95 %, in standard uncertainties
+WIDEST = 4.0  # range of two motions, as a ratio of speeds
 VAGUE = np.log(2.0)  # of the half-width of a logarithm
 
 
@@ -232,6 +233,12 @@ def _check_jumps(drive: GearDrive, up: ArrayLike, down: ArrayLike, torques_nm: S
                 jumps.append(Seen(run, torque, check_number(f"jump_{run}_rpm", speed, above=0.0)))
     if not jumps:
         raise ValueError("jump_up_rpm and jump_down_rpm must have a speed that was seen, got nan alone")
+    for torque in torques.tolist():
+        own = [each.speed_rpm for each in jumps if each.torque_nm == torque]
+        if own and max(own) > WIDEST * min(own):
+            raise ValueError(
+                f"jump_up_rpm and jump_down_rpm of one torque must be at most a factor of {WIDEST:g} apart, got {own}"
+            )
     if 0.0 in torques:
         raise ValueError("torques_nm must not be 0: without a mean force nothing holds the teeth together")
     return jumps

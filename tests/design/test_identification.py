@@ -196,6 +196,7 @@ def test_an_answer_is_a_line_and_compares_by_value() -> None:
         ({"jump_up_rpm": np.nan, "jump_down_rpm": np.nan}, "must have a speed that was seen"),
         ({"jump_up_rpm": -3.0}, "jump_up_rpm must be a finite number above 0, got -3.0"),
         ({"jump_up_rpm": [8000.0, 8100.0]}, "jump_up_rpm must have one speed for each of 1 torques"),
+        ({"jump_up_rpm": 0.5}, "must be at most a factor of 4 apart, got"),
         ({"speed_error_rpm": 0.0}, "speed_error_rpm must be a finite number above 0"),
         ({"ramp_rpm_per_s": 0.0}, "ramp_rpm_per_s must be a finite number above 0"),
         ({"damping_ratios": (0.0, 0.1)}, r"damping_ratios\[0\] must be a finite number above 0"),
