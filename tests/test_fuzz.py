@@ -30,7 +30,7 @@ def made(name):
         "chart": lambda: gp.design.speed_chart(drive, SPEEDS, n_starts=2, locate_jumps=False),
         "double": lambda: gp.steady_state(OSC, -2.3365, 1.5426),
         "drive": lambda: drive,
-        "moving": lambda: drive.at_speed(2000.0),
+        "moving": lambda: drive.at_speed(2000.0).at_phase(0.0),
         "flip": lambda: made("branch").bifurcations[0],
         "loads": lambda: gp.design.load_map(drive, [50.0, 100.0], SPEEDS, n_starts=0, locate_jumps=False),
         "map": lambda: gp.parameter_map(
@@ -153,10 +153,10 @@ CALLS = {
             "n_transient": 20,
         },
         "measure_motion": lambda: {"drive": made("drive"), "state": made("state")},
-        "run_up": lambda: {"drive": made("drive"), "from_rpm": 2000.0, "to_rpm": 3000.0, "seconds": 0.01},
-        "schedule": lambda: {"drive": made("drive"), "seconds": 0.01, "speed_rpm": [(0.0, 2000.0), (0.01, 3000.0)]},
+        "run_up": lambda: {"drive": made("moving"), "from_rpm": 2000.0, "to_rpm": 3000.0, "seconds": 0.01},
+        "schedule": lambda: {"drive": made("moving"), "seconds": 0.01, "speed_rpm": [(0.0, 2000.0), (0.01, 3000.0)]},
         "sensitivity": lambda: {"drive": made("drive"), "speeds_rpm": SPEEDS, "ranges": {"damping_ratio": (0.1, 0.2)}},
-        "shock_margin": lambda: {"drive": made("drive"), "speeds_rpm": SPEEDS, "n_phases": 1, "n_starts": 1},
+        "shock_margin": lambda: {"drive": made("moving"), "speeds_rpm": SPEEDS, "n_phases": 1, "n_starts": 1},
         "sound": lambda: {"drive": made("drive"), "motion": made("state"), "seconds": 0.2, "rate": 4000},
         "population": lambda: {
             "drive": made("drive"),

@@ -71,7 +71,8 @@ class EdgeState:
         """One line."""
         between = " and ".join(str(side.motion) for side in self.sides)
         found = "no periodic orbit" if self.orbit is None else repr(self.orbit)
-        return f"between {between}, after {self.tracked} mesh periods: {found}"
+        mesh_periods = self.tracked * self.oscillator.mesh_periods
+        return f"between {between}, after {mesh_periods} mesh periods: {found}"
 
 
 @checked
@@ -98,7 +99,7 @@ def edge_state(
     Raises
     ------
     ValueError
-        Where both starts settle on the same motion.
+        Where both starts settle on the same motion; for a motion of another oscillator.
 
     Notes
     -----
@@ -119,7 +120,7 @@ def edge_state(
     """
     n_periods = check_count("n_periods", n_periods)
     max_period = MANY.having(settling).max_period
-    within, beyond = start_of("a", a), start_of("b", b)
+    within, beyond = start_of("a", a, osc), start_of("b", b, osc)
     sides = Sides(osc, within, settling)
     if sides.at_home(beyond[None])[0]:
         motion = steady_state(osc, *within.tolist(), **settling).motion

@@ -93,7 +93,7 @@ def manifolds(
     Raises
     ------
     ValueError
-        For an orbit that is no saddle.
+        For an orbit that is no saddle, or outside the window.
 
     Notes
     -----
@@ -117,6 +117,8 @@ def manifolds(
     max_points = check_count("max_points", max_points)
     window = np.array([check_reach("x", x), check_reach("v", v)])
     check_saddle(orbit)
+    if not np.all((orbit.points >= window[:, 0]) & (orbit.points <= window[:, 1])):
+        raise ValueError(f"x and v must hold the orbit, which is at {orbit.points.tolist()}, got {x} and {v}")
     curves: dict[str, list[NDArray[np.float64]]] = {"stable": [], "unstable": []}
     complete = True
     for k in range(orbit.period):

@@ -47,7 +47,7 @@ class CriticalShock:
     leads_to : SteadyState or None
         Where the motion settles after a kick that is larger by a billionth, seen from that phase.
     phases, sizes : ndarray of float, shape (n,)
-        Every phase that was looked at, and the smallest kick there, to 1e-4.
+        Every phase that was looked at, and the smallest kick found there, to 1e-4.
     kicks : ndarray of float, shape (n, 2)
         The changes of X and X' there.
     """
@@ -111,7 +111,9 @@ def critical_shock(
     -----
     At each phase rings of kicks are tried, larger and larger, until one leaves. Between it and the ring before, the
     boundary is bisected in each direction that leaves, and the best direction turned until no turn makes the kick
-    smaller: at the best phase to 1e-12 of its size. There the kick is at right angles to the boundary.
+    smaller: at the best phase to 1e-12 of its size. There the kick is at right angles to the boundary. A kick that
+    leaves at one phase is, moved on with both motions, one that leaves at the next: so each is tried there, too, once
+    round from the best.
 
     This is the smallest shock *found*. A tongue of another basin that is narrower than the directions and the rings
     (of a ratio of 1.19) are apart may lie nearer; more directions find it. The field calls it the "minimal fatal shock"
@@ -139,6 +141,8 @@ def critical_shock(
     for k, point in enumerate(points):
         search = Search(Sides(sections[k % len(sections)], point, settling), point)
         kicks[k] = search.smallest(angles, radii, turn)
+    if kick == "any":
+        _carry_round(sections, points, kicks, turn, settling)
     sizes = np.hypot(*kicks.T)
     sizes[np.isnan(sizes)] = np.inf
     best = int(np.argmin(sizes))
@@ -162,6 +166,34 @@ def points_over_cycle(osc: Oscillator, state: SteadyState | PeriodicOrbit, n_pha
     x, v = state.points[0].tolist()
     way = trajectory(osc, x, v, state.period, samples_per_period=n_phases)
     return np.column_stack([way.x, way.v])[:-1]
+
+
+def _carry_round(
+    sections: list[Oscillator],
+    points: NDArray[np.float64],
+    kicks: NDArray[np.float64],
+    turn: float,
+    settling: SettleOptions,
+) -> None:
+    """Try each kick that leaves at the next phase, too, once round from the smallest; keeps what is smaller there."""
+    n, per_period = len(points), len(sections) // sections[0].mesh_periods
+    sizes = np.where(np.isnan(kicks[:, 0]), np.inf, np.hypot(*kicks.T))
+    first = int(np.argmin(sizes))
+    if np.isinf(sizes[first]):
+        return
+    for k in range(first, first + n):
+        here, there = k % n, (k + 1) % n
+        if np.isnan(kicks[here, 0]):
+            continue
+        x, v = (points[here] + kicks[here]).tolist()
+        way = trajectory(sections[here % len(sections)], x, v, 1, samples_per_period=per_period)
+        carried = np.array([way.x[1], way.v[1]]) - points[there]
+        sides = Sides(sections[there % len(sections)], points[there], settling)
+        if sides.at_home((points[there] + carried)[None])[0]:  # so near the boundary that rounding took it back
+            continue
+        found = Search(sides, points[there]).refined(carried, turn, ROUGH)
+        if not np.hypot(*kicks[there]) <= np.hypot(*found):
+            kicks[there] = found
 
 
 class Search:

@@ -82,8 +82,10 @@ class Sides:
         return within, beyond
 
 
-def start_of(name: str, given: ArrayLike | SteadyState | PeriodicOrbit) -> NDArray[np.float64]:
-    """A start (2,) as given, or a section point of a motion; or a ValueError."""
+def start_of(name: str, given: ArrayLike | SteadyState | PeriodicOrbit, osc: Oscillator) -> NDArray[np.float64]:
+    """A start (2,) as given, or a section point of a motion of `osc`; or a ValueError."""
+    if isinstance(given, (SteadyState, PeriodicOrbit)) and given.oscillator != osc:
+        raise ValueError(f"{name} must be a motion of the oscillator that is given, got one of another")
     point = given.points[0] if isinstance(given, (SteadyState, PeriodicOrbit)) else check_array(name, given)
     if point.shape != (2,):
         raise ValueError(f"{name} must be X and X', or a settled motion, got shape {point.shape}")

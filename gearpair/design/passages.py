@@ -61,7 +61,7 @@ def run_up(
     --------
     >>> from gearpair.teeth import SpurPair
     >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
-    ...     transmission_error_um=5.0, damping_ratio=0.08)
+    ...     transmission_error_um=[(1, 5.0, 0.0)], damping_ratio=0.08)
     >>> run = run_up(drive, 3000.0, 9000.0, 0.2)
     >>> run.sizes["cycle"], bool(run.dynamic_factor.max() > 1.5)
     (680, True)
@@ -105,7 +105,7 @@ def load_change(
     --------
     >>> from gearpair.teeth import SpurPair
     >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
-    ...     transmission_error_um=5.0, damping_ratio=0.08, pinion_speed_rpm=2000.0)
+    ...     transmission_error_um=[(1, 5.0, 0.0)], damping_ratio=0.08, pinion_speed_rpm=2000.0)
     >>> tip_in = load_change(drive, [(0.0, -20.0), (0.005, 120.0)], 0.05)
     >>> str(tip_in.impact_state.values[0]), str(tip_in.impact_state.values[-1])
     ('none_coast', 'none_drive')
@@ -136,6 +136,7 @@ def schedule(
     Parameters
     ----------
     drive : GearDrive
+        With a known phase of its error (`GearDrive.at_phase`) and without `shaft_orders`.
     seconds : float
         How long it is followed; the last mesh period is a whole one.
     speed_rpm : float or sequence of (float, float)
@@ -175,7 +176,7 @@ def schedule(
     --------
     >>> from gearpair.teeth import SpurPair
     >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
-    ...     transmission_error_um=5.0, damping_ratio=0.08)
+    ...     transmission_error_um=[(1, 5.0, 0.0)], damping_ratio=0.08)
     >>> ride = schedule(drive, 0.1, speed_rpm=[(0.0, 2000.0), (0.1, 3000.0)], torque_nm=[(0.0, 20.0), (0.05, 100.0)])
     >>> ride.sizes["cycle"], round(float(ride.torque[-1]))
     (142, 100)
@@ -183,6 +184,7 @@ def schedule(
     import xarray as xr  # here, so that importing gearpair stays quick
 
     check_count("samples_per_period", samples_per_period, at_least=0)
+    check_one_course(drive)
     cycles = mesh_cycles(drive, seconds, speed_rpm, drive.pinion_torque_nm if torque_nm is None else torque_nm)
     unit = drive.unit_force_n
     mean_force = cycles.torque / (drive.pinion_base_radius_mm * 1e-3)
@@ -205,7 +207,7 @@ def schedule(
         "torque": cycles.torque,
         "mean_mesh_force": mean_force,
         "mesh_force": run.largest_force.values * unit,
-        "dynamic_factor": run.largest_force.values * unit / abs(drive.mean_force_n),
+        "dynamic_factor": run.largest_force.values * unit / (abs(drive.mean_force_n) or np.nan),
         "impact_velocity": np.maximum(run.drive_velocity, run.coast_velocity).values * mm_s,
     }
     variables = {name: ("cycle", column, attributes(name)) for name, column in columns.items()}
@@ -248,6 +250,17 @@ def inertia_force_n(drive: GearDrive, acceleration: ArrayLike) -> Array:
     """The mesh force (N) that accelerates the driven side at a pinion's acceleration (rad/s^2), ``I2 a2 / r_b2``."""
     radius, driven = drive.pinion_base_radius_mm * 1e-3, drive.gear_base_radius_mm * 1e-3
     return np.asarray(drive.gear_inertia_kg_m2 * np.asarray(acceleration) * radius / driven**2)
+
+
+def check_one_course(drive: GearDrive) -> None:
+    """A ValueError unless the error of a drive has one known course over every mesh period."""
+    if drive.phase_is_unknown:
+        raise ValueError(
+            "drive must have an error of a known phase, got one given as an amplitude alone: take drive.at_phase(rad), "
+            'of the worst phase with chart.attrs["run_phase_rad"] of a speed_chart'
+        )
+    if any(each.amplitude for each in drive.shaft_orders):
+        raise ValueError(f"drive must repeat with the mesh period, got shaft_orders = {drive.shaft_orders}")
 
 
 def mesh_cycles(drive: GearDrive, seconds: float, speed_rpm: Course, torque_nm: Course) -> Cycles:

@@ -12,6 +12,7 @@ from gearpair._checks import check_count, check_number, checked
 from gearpair.boundaries.dips import critical_dip
 from gearpair.design.charts import carried_runs, check_speeds, oscillators_at, settled_starts
 from gearpair.design.loads import same_motion
+from gearpair.design.passages import check_one_course
 from gearpair.drive import GearDrive
 from gearpair.motion.measures import impact_measures
 from gearpair.motion.settling import Status
@@ -41,7 +42,7 @@ def shock_margin(
     Parameters
     ----------
     drive : GearDrive
-        With a torque.
+        With a torque, a known phase of its error (`GearDrive.at_phase`) and without `shaft_orders`.
     speeds_rpm : array_like of float, shape (n,)
         Of the pinion, rising, at least two.
     cycles : int
@@ -74,7 +75,7 @@ def shock_margin(
     --------
     >>> from gearpair.teeth import SpurPair
     >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
-    ...     transmission_error_um=5.0, damping_ratio=0.05)
+    ...     transmission_error_um=[(1, 5.0, 0.0)], damping_ratio=0.05)
     >>> margin = shock_margin(drive, [3000.0, 4000.0], n_phases=2, n_starts=4)
     >>> margin.n_motions.values.tolist()
     [1, 1]
@@ -85,6 +86,7 @@ def shock_margin(
     cycles, n_phases = check_count("cycles", cycles), check_count("n_phases", n_phases)
     largest = check_number("largest", largest, above=0.0)
     n_starts = check_count("n_starts", n_starts, at_least=0)
+    check_one_course(drive)
     if drive.pinion_torque_nm == 0.0:
         raise ValueError("drive must have a torque that can dip, got pinion_torque_nm = 0.0")
     oscillators = oscillators_at(drive, speeds)

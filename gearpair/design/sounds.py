@@ -170,12 +170,13 @@ def _force_of(
     if state.status in (Status.ESCAPED, Status.CAPPED):
         raise ValueError(f"motion must stay bounded, got one with status {str(state.status)!r}")
     osc, second = state.oscillator, drive.natural_frequency_rad_s
-    mesh = osc.period / second
+    mesh = osc.mesh_period / second
     per_period = max(16, int(np.ceil(fine_rate * mesh)))
     x, v = state.points[0].tolist()
-    way = trajectory(osc, x, v, int(np.ceil(seconds / mesh)) + 1, samples_per_period=per_period)
+    n_periods = osc.base_periods(int(np.ceil(seconds / mesh)) + 1)
+    way = trajectory(osc, x, v, n_periods, samples_per_period=per_period)
     pressed = np.sign(way.x) * np.clip(np.abs(way.x) - 1.0, 0.0, None)
-    return way.tau / second, pressed * osc.stiffness(way.tau / osc.period % 1.0) * drive.unit_force_n
+    return way.tau / second, pressed * osc.stiffness(way.tau / osc.mesh_period % 1.0) * drive.unit_force_n
 
 
 def _force_in(run: xr.Dataset) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

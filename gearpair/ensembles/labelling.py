@@ -107,7 +107,10 @@ class Attractors(Sequence[SteadyState]):
         told = zip(self.numbers[:MOST_TOLD], self.kinds, self.shares.tolist(), strict=False)
         texts = [f"{number}: {kind} ({share:.1%} of the starts)" for number, kind, share in told]
         texts += [f"{len(self) - MOST_TOLD} more"] * (len(self) > MOST_TOLD)
-        return f"{len(self)} attractors of {len(self.starts)} starts; {'; '.join(texts)}"
+        others = {code: float(np.mean(self.labels == code)) for code in NO_ATTRACTOR}
+        texts += [f"{NO_ATTRACTOR[code]} ({share:.1%})" for code, share in others.items() if share]
+        kind = "attractor" if len(self) == 1 else "attractors"
+        return f"{len(self)} {kind} of {len(self.starts)} starts; {'; '.join(texts)}"
 
     @property
     def by_number(self) -> dict[int, SteadyState]:

@@ -71,6 +71,7 @@ def passage(oscillators: Sequence[Oscillator], x: float, v: float, *, samples_pe
     import xarray as xr  # here, so that importing gearpair stays quick
 
     x, v = check_start(x, v)
+    oscillators = list(oscillators)
     per_period = check_count("samples_per_period", samples_per_period, at_least=0)
     schedule = scheduled_oscillators(oscillators)
     n = len(schedule.which)

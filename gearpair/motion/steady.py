@@ -18,6 +18,8 @@ from gearpair.motion.stability import multipliers_of
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
 
+SAMPLES = 256  # section points kept of a motion that is not periodic
+
 
 @equal_by_value
 @dataclass(frozen=True)
@@ -73,7 +75,7 @@ def steady_state(
     x: float = 1.0,
     v: float = 0.0,
     *,
-    samples: int = 256,
+    samples: int | None = None,
     n_samples: int | None = None,
     **settling: Unpack[SettleOptions],
 ) -> SteadyState:
@@ -84,10 +86,10 @@ def steady_state(
     osc : Oscillator
     x, v : float
         X and X' at the start of a base period.
-    samples : int
+    samples : int, optional
         Section points kept of a motion that is not periodic: successive ones, so 20 000 draw the section of chaos. They
         take 16 bytes and some 0.4 microseconds each, after the motion has been judged. Of a periodic motion each point
-        of the cycle is kept once, whatever this is.
+        of the cycle is kept once, whatever this is. 256 when not given.
     n_samples : int, optional
         What sweeps call it; the same as `samples`.
     **settling
@@ -119,9 +121,11 @@ def steady_state(
     (20000, 2)
     """
     start = check_start(x, v)
-    samples = check_count("samples", samples if n_samples is None else n_samples)
-    out = settle_batch([osc], np.array([start]), ONE.having(settling, n_samples=samples).whole_cycles())
-    return describe(osc, out, 0, samples)
+    if samples is not None and n_samples is not None:
+        raise ValueError(f"give either samples or n_samples, which are the same, got {samples} and {n_samples}")
+    kept = check_count("samples", next((each for each in (samples, n_samples) if each is not None), SAMPLES))
+    out = settle_batch([osc], np.array([start]), ONE.having(settling, n_samples=kept).whole_cycles())
+    return describe(osc, out, 0, kept)
 
 
 def describe(osc: Oscillator, out: Settled, i: int, samples: int | None = None) -> SteadyState:

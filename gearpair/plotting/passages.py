@@ -51,7 +51,7 @@ def passage_factor(run: xr.Dataset, chart: xr.Dataset | None = None, ax: Axes | 
     --------
     >>> import gearpair as gp
     >>> drive = gp.GearDrive.from_pair(gp.SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
-    ...     transmission_error_um=5.0, damping_ratio=0.08)
+    ...     transmission_error_um=[(1, 5.0, 0.0)], damping_ratio=0.08)
     >>> ax = passage_factor(gp.design.run_up(drive, 3000.0, 4000.0, 0.1))
     >>> [line.get_label() for line in ax.lines], ax.get_xlabel()
     (['run up'], 'speed of the pinion (rpm)')
@@ -91,7 +91,7 @@ def order_map(run: xr.Dataset, ax: Axes | None = None, *, n_orders: int = 4, **l
     --------
     >>> import gearpair as gp
     >>> drive = gp.GearDrive.from_pair(gp.SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
-    ...     transmission_error_um=5.0, damping_ratio=0.08)
+    ...     transmission_error_um=[(1, 5.0, 0.0)], damping_ratio=0.08)
     >>> ax = order_map(gp.design.run_up(drive, 3000.0, 4000.0, 0.1, samples_per_period=32))
     >>> [text.get_text() for text in ax.texts]
     ['1', '2', '3', '4']
@@ -180,7 +180,7 @@ def shock_margins(margin: xr.Dataset, ax: Axes | None = None, **look: Any) -> Ax
     --------
     >>> import gearpair as gp
     >>> drive = gp.GearDrive.from_pair(gp.SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
-    ...     transmission_error_um=5.0, damping_ratio=0.08)
+    ...     transmission_error_um=[(1, 5.0, 0.0)], damping_ratio=0.08)
     >>> ax = shock_margins(gp.design.shock_margin(drive, [2000.0, 3000.0], n_phases=1, n_starts=2))
     >>> [text.get_text() for text in ax.texts]
     ['one motion at each of these speeds']

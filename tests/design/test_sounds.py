@@ -11,7 +11,7 @@ from gearpair.design import run_up, sound, write_wav
 
 PAIR = gp.SpurPair(pinion_teeth=28, gear_teeth=57, module_mm=3.0, face_width_mm=25.0)
 DRIVE = gp.GearDrive.from_pair(
-    PAIR, pinion_torque_nm=120.0, backlash_um=100.0, transmission_error_um=4.0, damping_ratio=0.05
+    PAIR, pinion_torque_nm=120.0, backlash_um=100.0, transmission_error_um=[(1, 4.0, 0.0)], damping_ratio=0.05
 ).at_speed(8100.0)
 STATE = gp.steady_state(DRIVE.oscillator())
 

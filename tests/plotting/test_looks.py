@@ -54,7 +54,7 @@ def made(name):
         "manifolds": lambda: gp.manifolds(gp.periodic_orbit(OSC, -1.5688, -1.0135, 1), length=3.0),
         "map": lambda: gp.parameter_map(OSC, grid, measures=True),
         "motion": lambda: gp.trajectory(OSC, 1.0, 0.0, 8),
-        "passage": lambda: gp.design.run_up(drive, 3000.0, 4000.0, 0.1, samples_per_period=16),
+        "passage": lambda: gp.design.run_up(drive.at_phase(0.0), 3000.0, 4000.0, 0.1, samples_per_period=16),
         "plane": lambda: gp.basins(OSC, **PLANE),
         "population": lambda: gp.design.population(
             drive, {"transmission_error_um": (0.5, 8.0), "backlash_um": (60.0, 100.0)}, SPEEDS, n=16
@@ -65,7 +65,7 @@ def made(name):
             reached([SWAPPED], name, 3, n_discarded=100) for name in ("mesh_frequency", "damping_ratio")
         ),
         "saddle": lambda: gp.ensembles.chaotic_saddle(OSC.replace(mesh_frequency=1.09), [-1.0, 0.0, 1.0, 2.0], -1.0),
-        "shocks": lambda: gp.design.shock_margin(drive, [3000.0, 3100.0], n_phases=1, n_starts=0),
+        "shocks": lambda: gp.design.shock_margin(drive.at_phase(0.0), [3000.0, 3100.0], n_phases=1, n_starts=0),
         "segment": lambda: next(s for s in gp.methods.segments(OSC, 1.0, 0.0) if s.crossing is not None),
         "sensitivity": lambda: gp.design.sensitivity(drive, [2000.0, 3000.0], {"damping_ratio": (0.02, 0.06)}),
         "shares": lambda: gp.ensembles.motion_shares(OSC, "damping_ratio", [0.02, 0.1, 0.2], [-2.0, 0.0, 1.0], [0.0]),
