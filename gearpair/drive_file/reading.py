@@ -144,7 +144,7 @@ def read_drive_file(path: str | Path) -> DriveFile:
         torques = torque if isinstance(torque, tuple) else (torque,)
         changes = {name: given[name] for name in AFTERWARDS if name in given}
         damping = given.get("damping_ratio", ENTRIES["damping_ratio"].default)
-        keywords = {
+        keywords: dict[str, Any] = {
             "pinion_torque_nm": torques[0] if torques else 0.0,
             "backlash_um": 0.5 * (low + high),
             "damping_ratio": damping,
