@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_array, check_count, check_number, checked
+from gearpair._checks import check_array, check_count, check_number, checked, shown
 from gearpair.drive import GearDrive
 from gearpair.motion.passages import passage
 from gearpair.motion.steady import SteadyState, steady_state
+from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
 from gearpair.quantities import attributes
 from gearpair.stiffness import StiffnessWave
@@ -196,9 +197,7 @@ def schedule(
         meshing(torque).replace(mesh_frequency=frequency, mean_force=force)
         for torque, frequency, force in zip(cycles.torque.tolist(), frequencies.tolist(), forces.tolist(), strict=True)
     ]
-    if not isinstance(start, tuple):
-        start = tuple((start or steady_state(oscillators[0])).points[0].tolist())
-    x, v = start
+    x, v = _begun(start, oscillators[0])
     run = passage(oscillators, x, v, samples_per_period=samples_per_period)
     mm_s = drive.half_backlash_m * drive.natural_frequency_rad_s * 1e3
     columns: dict[str, Any] = {
@@ -214,6 +213,16 @@ def schedule(
     kept = ("x", "v", "x_min", "x_max", "drive_impacts", "coast_impacts", "impact_state")
     result = xr.Dataset(variables, run.coords, {"drive": repr(drive)}).assign({name: run[name] for name in kept})
     return result.assign(_samples(drive, oscillators, run)) if samples_per_period else result
+
+
+def _begun(start: SteadyState | tuple[float, float] | None, osc: Oscillator) -> tuple[float, float]:
+    """X and X' that a schedule starts from; or a ValueError."""
+    if start is None or isinstance(start, SteadyState):
+        x, v = (start or steady_state(osc)).points[0].tolist()
+        return x, v
+    if np.shape(start) != (2,):
+        raise ValueError(f"start must be a settled motion, or X and X', got {shown(start)}")
+    return check_start(*start)
 
 
 def under_torque(drive: GearDrive, torque_nm: float) -> Oscillator:

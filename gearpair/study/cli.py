@@ -105,7 +105,7 @@ def drive(file: Path | None, example: bool, quiet: bool, **outputs: Path | None)
     PAIR.yml holds what stands on its drawing and data sheet. Where the gear only idles, the numbers are those of its
     rattle.
     """
-    from gearpair.study.drive import example_file, run_drive
+    from gearpair.study.drive_run import example_file, run_drive
 
     if example:
         print(example_file(), end="")

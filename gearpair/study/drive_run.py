@@ -1,8 +1,8 @@
 """The command ``gearpair drive``: a file in, a verdict out, and what was asked for beside it, whole or not at all."""
 
 import os
-from collections.abc import Callable, Mapping
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from gearpair.drive_file import example
@@ -72,7 +72,20 @@ def _write(writer: Writer, found: Answer, path: Path) -> None:
 
 
 def _write_page(found: Answer, path: Path) -> None:
-    os.environ.setdefault("MPLBACKEND", "agg")  # no window for a figure that goes into a file
-    from gearpair.study.drive_page import page
+    with _without_windows():
+        from gearpair.study.drive_page import page
 
-    path.write_text(page(found), encoding="utf-8")
+        path.write_text(page(found), encoding="utf-8")
+
+
+@contextmanager
+def _without_windows() -> Iterator[None]:
+    """No window for a figure that goes into a file; what is run afterwards chooses for itself."""
+    if "MPLBACKEND" in os.environ:
+        yield
+        return
+    os.environ["MPLBACKEND"] = "agg"
+    try:
+        yield
+    finally:
+        del os.environ["MPLBACKEND"]
