@@ -220,9 +220,10 @@ def _begun(start: SteadyState | tuple[float, float] | None, osc: Oscillator) -> 
     if start is None or isinstance(start, SteadyState):
         x, v = (start or steady_state(osc)).points[0].tolist()
         return x, v
-    if np.shape(start) != (2,):
+    pair = check_array("start", start)
+    if pair.shape != (2,):
         raise ValueError(f"start must be a settled motion, or X and X', got {shown(start)}")
-    return check_start(*start)
+    return check_start(*pair.tolist())
 
 
 def under_torque(drive: GearDrive, torque_nm: float) -> Oscillator:
