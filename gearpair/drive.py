@@ -103,17 +103,7 @@ class GearDrive(Scales):
     (0.1432, 0.2, 0.3141)
     """
 
-    pinion_teeth: int
-    pinion_inertia_kg_m2: float
-    gear_inertia_kg_m2: float
-    pinion_base_radius_mm: float
-    gear_base_radius_mm: float
-    pinion_torque_nm: float
-    pinion_speed_rpm: float | None = None
-    backlash_um: float
     transmission_error_um: float
-    mean_stiffness_n_per_um: float
-    damping_n_s_per_m: float
     error_phase_rad: float | None = None
     stiffness: StiffnessWave = field(default_factory=StiffnessWave.rectangular)
     error_harmonics: tuple[Harmonic, ...] = ()

@@ -1,10 +1,13 @@
 """What the dimensionless quantities of a drive stand for: its masses, frequencies and units."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 
+@dataclass(frozen=True, kw_only=True)
 class Scales:
-    """Two rotors coupled by one mesh, `gearpair.GearDrive`, as far as its units follow from its numbers."""
+    """The part of `gearpair.GearDrive`, which documents its numbers, that its units follow from."""
 
     pinion_teeth: int
     pinion_inertia_kg_m2: float
@@ -12,7 +15,7 @@ class Scales:
     pinion_base_radius_mm: float
     gear_base_radius_mm: float
     pinion_torque_nm: float
-    pinion_speed_rpm: float | None
+    pinion_speed_rpm: float | None = None
     backlash_um: float
     mean_stiffness_n_per_um: float
     damping_n_s_per_m: float

@@ -29,6 +29,7 @@ def made(name):
         "branch": lambda: gp.continue_orbit(made("state"), "mesh_frequency", 0.7, 0.8),
         "chart": lambda: gp.design.speed_chart(drive, SPEEDS, n_starts=2, locate_jumps=False),
         "double": lambda: gp.steady_state(OSC, -2.3365, 1.5426),
+        "boxes": lambda: gp.design.population(drive, {"backlash_um": (60.0, 100.0)}, SPEEDS, n=2),
         "drive": lambda: drive,
         "moving": lambda: drive.at_speed(2000.0).at_phase(0.0),
         "flip": lambda: made("branch").bifurcations[0],
@@ -127,6 +128,7 @@ CALLS = {
     },
     "design": {
         "duty_cycle": lambda: {"found": made("loads"), "points": [(60.0, 3000.0, 1.0)]},
+        "helps_most": lambda: {"found": made("boxes")},
         "find_jumps": lambda: {"up": made("up"), "down": made("up")},
         "identify": lambda: {
             "drive": made("drive").at_phase(0.3),

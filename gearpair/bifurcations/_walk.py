@@ -101,6 +101,15 @@ def null_vector(matrix: NDArray[np.float64]) -> Vector:
     return np.linalg.svd(matrix)[2][-1]
 
 
+def newton_step(system: NDArray[np.float64], residual: Vector) -> Vector | None:
+    """The change that Newton's method asks for; None where the system is singular or the change leaves the scales."""
+    try:
+        change = np.asarray(np.linalg.solve(system, -residual), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        return None
+    return change if np.max(np.abs(change)) < 1.0 else None
+
+
 def correct(equations: Equations, guess: Vector, normal: Vector) -> tuple[Vector, Vector, int] | None:
     """Newton's method in the plane through `guess` across `normal`: (u, tangent, steps), or None."""
     u = guess.copy()
@@ -110,11 +119,8 @@ def correct(equations: Equations, guess: Vector, normal: Vector) -> tuple[Vector
             return None
         residual, jacobian = found
         system = np.vstack([jacobian, normal])
-        try:
-            change = np.linalg.solve(system, -np.append(residual, normal @ (u - guess)))
-        except np.linalg.LinAlgError:
-            return None
-        if not np.max(np.abs(change)) < 1.0:
+        change = newton_step(system, np.append(residual, normal @ (u - guess)))
+        if change is None:
             return None
         u = u + change
         if np.max(np.abs(change)) < CLOSE:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from gearpair._checks import checked
-from gearpair.bifurcations._walk import CLOSE, Step, null_vector
+from gearpair.bifurcations._walk import CLOSE, Step, newton_step, null_vector
 from gearpair.bifurcations.curves import CurveProblem
 from gearpair.bifurcations.locating import Bifurcation, bifurcation_at
 from gearpair.motion.trajectories import stroboscopic_map
@@ -53,11 +53,8 @@ def move_bifurcation(bifurcation: Bifurcation, osc: Oscillator) -> Bifurcation |
         found = problem.equations(u)
         if found is None:
             return None
-        try:
-            change = np.linalg.solve(found[1], -found[0])
-        except np.linalg.LinAlgError:
-            return None
-        if not np.max(np.abs(change)) < 1.0:
+        change = newton_step(found[1], found[0])
+        if change is None:
             return None
         u = u + change
         if np.max(np.abs(change)) < CLOSE:

@@ -137,19 +137,17 @@ def critical_shock(
     )
     turn, rings = (0.0, RINGS * n_directions // 2) if kick == "velocity" else (np.pi / n_directions, RINGS)
     radii = largest * SMALLEST ** (1.0 - np.arange(rings + 1) / rings)
-    kicks = np.full((len(points), 2), np.nan)
-    for k, point in enumerate(points):
-        search = Search(Sides(sections[k % len(sections)], point, settling), point)
-        kicks[k] = search.smallest(angles, radii, turn)
+    searches = [Search(Sides(sections[k % len(sections)], point, settling), point) for k, point in enumerate(points)]
+    kicks = np.array([search.smallest(angles, radii, turn) for search in searches])
     if kick == "any":
-        _carry_round(sections, points, kicks, turn, settling)
+        _carry_round(searches, kicks, n_phases, turn)
     sizes = np.hypot(*kicks.T)
     sizes[np.isnan(sizes)] = np.inf
     best = int(np.argmin(sizes))
     if np.isinf(sizes[best]):
         return CriticalShock(osc, np.inf, kicks[best], phases[best], points[best], None, phases, sizes, kicks)
     section = sections[best % len(sections)]
-    change = Search(Sides(section, points[best], settling), points[best]).refined(kicks[best], turn, FINE)
+    change = searches[best].refined(kicks[best], turn, FINE)
     beyond = points[best] + (1.0 + 1e-9) * change
     leads_to = steady_state(section, *beyond.tolist(), **settling)
     size = float(np.hypot(*change))
@@ -168,30 +166,19 @@ def points_over_cycle(osc: Oscillator, state: SteadyState | PeriodicOrbit, n_pha
     return np.column_stack([way.x, way.v])[:-1]
 
 
-def _carry_round(
-    sections: list[Oscillator],
-    points: NDArray[np.float64],
-    kicks: NDArray[np.float64],
-    turn: float,
-    settling: SettleOptions,
-) -> None:
+def _carry_round(searches: list[Search], kicks: NDArray[np.float64], n_phases: int, turn: float) -> None:
     """Try each kick that leaves at the next phase, too, once round from the smallest; keeps what is smaller there."""
-    n, per_period = len(points), len(sections) // sections[0].mesh_periods
-    sizes = np.where(np.isnan(kicks[:, 0]), np.inf, np.hypot(*kicks.T))
-    first = int(np.argmin(sizes))
-    if np.isinf(sizes[first]):
+    if np.isnan(kicks).all():
         return
+    first, n = int(np.nanargmin(np.hypot(*kicks.T))), len(kicks)
     for k in range(first, first + n):
         here, there = k % n, (k + 1) % n
         if np.isnan(kicks[here, 0]):
             continue
-        x, v = (points[here] + kicks[here]).tolist()
-        way = trajectory(sections[here % len(sections)], x, v, 1, samples_per_period=per_period)
-        carried = np.array([way.x[1], way.v[1]]) - points[there]
-        sides = Sides(sections[there % len(sections)], points[there], settling)
-        if sides.at_home((points[there] + carried)[None])[0]:  # so near the boundary that rounding took it back
+        carried = searches[here].carried(kicks[here], n_phases) - searches[there].point
+        if not searches[there].leaves(carried):  # so near the boundary that rounding took it back
             continue
-        found = Search(sides, points[there]).refined(carried, turn, ROUGH)
+        found = searches[there].refined(carried, turn, ROUGH)
         if not np.hypot(*kicks[there]) <= np.hypot(*found):
             kicks[there] = found
 
@@ -200,14 +187,24 @@ class Search:
     """The search for the smallest kick from one point of a motion."""
 
     def __init__(self, sides: Sides, point: NDArray[np.float64]) -> None:
-        self._sides, self._point = sides, point
+        self._sides, self.point = sides, point
+
+    def leaves(self, kick: NDArray[np.float64]) -> bool:
+        """Whether the motion does not come back after a kick."""
+        return not self._sides.at_home((self.point + kick)[None])[0]
+
+    def carried(self, kick: NDArray[np.float64], n_phases: int) -> NDArray[np.float64]:
+        """X and X' (2,) at the next of as many phases of a mesh period, after a kick."""
+        x, v = (self.point + kick).tolist()
+        way = trajectory(self._sides.osc, x, v, 1, samples_per_period=n_phases)
+        return np.array([way.x[1], way.v[1]])
 
     def smallest(self, angles: NDArray[np.float64], radii: NDArray[np.float64], turn: float) -> NDArray[np.float64]:
         """The smallest kick (2,) that leaves, roughly; nan where none of the rings has one."""
         directions = np.column_stack([np.cos(angles), np.sin(angles)])
         before = 0.0
         for radius in radii.tolist():
-            stays = self._sides.at_home(self._point + radius * directions)
+            stays = self._sides.at_home(self.point + radius * directions)
             if not stays.all():
                 found = [self._cut(radius * each, before / radius, ROUGH) for each in directions[~stays]]
                 return self.refined(min(found, key=lambda each: float(np.hypot(*each))), turn, ROUGH)
@@ -219,7 +216,7 @@ class Search:
         kick = self._cut(kick, 1.0 - 10.0 * ROUGH, accuracy)
         while turn >= TURNS[accuracy]:
             both = np.array([_turned(kick, turn), _turned(kick, -turn)]) * (1.0 - max(SAME_SIZE, 0.1 * turn * accuracy))
-            leaves = ~self._sides.at_home(self._point + both)
+            leaves = ~self._sides.at_home(self.point + both)
             if leaves.any():
                 kick = self._cut(both[int(np.argmax(leaves))], 0.0, accuracy)
             else:
@@ -228,12 +225,12 @@ class Search:
 
     def _cut(self, kick: NDArray[np.float64], share: float, accuracy: float) -> NDArray[np.float64]:
         """`kick`, which leaves, shortened to where it just does; a `share` of it should not, or nothing is tried."""
-        inner = self._point + share * kick
+        inner = self.point + share * kick
         if share > 0.0 and not self._sides.at_home(inner[None])[0]:
-            inner = self._point
+            inner = self.point
         size = float(np.hypot(*kick))
-        _within, beyond = self._sides.narrowed(inner, self._point + kick, accuracy * size)
-        return beyond - self._point
+        _within, beyond = self._sides.narrowed(inner, self.point + kick, accuracy * size)
+        return beyond - self.point
 
 
 def _turned(kick: NDArray[np.float64], angle: float) -> NDArray[np.float64]:

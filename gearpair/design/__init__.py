@@ -10,7 +10,7 @@ from gearpair.design.load_maps import duty_cycle, load_map
 from gearpair.design.loads import measure_motion
 from gearpair.design.passages import load_change, run_up, schedule
 from gearpair.design.players import Player
-from gearpair.design.populations import population
+from gearpair.design.populations import helps_most, population
 from gearpair.design.sensitivities import sensitivity
 from gearpair.design.shocks import shock_margin
 from gearpair.design.sounds import Sound, sound, write_wav
@@ -29,6 +29,7 @@ __all__ = [
     "Verdict",
     "duty_cycle",
     "find_jumps",
+    "helps_most",
     "identify",
     "idle_oscillator",
     "idle_rattle",

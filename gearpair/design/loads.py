@@ -1,6 +1,7 @@
 """What the teeth of a drive bear in one motion, in SI units."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gearpair._checks import checked
 from gearpair.drive import GearDrive
@@ -76,8 +77,12 @@ def _largest_tooth_force(drive: GearDrive, state: SteadyState, x: np.ndarray) ->
     fraction = np.arange(SAMPLES_PER_PERIOD) / SAMPLES_PER_PERIOD
     share = (drive.loaded_mesh or drive.mesh).load_share.max(axis=0)
     most = share[(fraction * len(share)).astype(int)] * state.oscillator.stiffness(fraction)
-    pressed = np.clip(np.abs(x) - 1.0, 0.0, None).reshape(-1, SAMPLES_PER_PERIOD)
-    return float((pressed * most).max()) * drive.unit_force_n
+    return float(np.abs(sampled_force_n(drive, x.reshape(-1, SAMPLES_PER_PERIOD), most)).max())
+
+
+def sampled_force_n(drive: GearDrive, x: NDArray[np.float64], stiffness: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The mesh force (N, positive on the drive flank) at X, of any shape, and k there."""
+    return np.asarray(np.sign(x) * np.clip(np.abs(x) - 1.0, 0.0, None) * stiffness * drive.unit_force_n)
 
 
 def one_error_for_both(drive: GearDrive, state: SteadyState) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_array, check_count, check_number, checked, shown
+from gearpair.design.loads import sampled_force_n
 from gearpair.drive import GearDrive
 from gearpair.motion.passages import passage
 from gearpair.motion.steady import SteadyState, steady_state
@@ -247,11 +248,10 @@ def under_torque(drive: GearDrive, torque_nm: float) -> Oscillator:
 def _samples(drive: GearDrive, oscillators: Sequence[Oscillator], run: xr.Dataset) -> dict[str, Any]:
     """What the samples of a passage are in SI units."""
     fraction, x = np.arange(run.sizes["sample"]) / run.sizes["sample"], run.sample_x.values
-    pressed = np.sign(x) * np.clip(np.abs(x) - 1.0, 0.0, None)
     found = {
         "sample_time": run.sample_tau.values / drive.natural_frequency_rad_s,
         "sample_dte": (x + [osc.error(fraction * osc.period) for osc in oscillators]) * drive.half_backlash_m * 1e6,
-        "sample_force": pressed * [osc.stiffness(fraction) for osc in oscillators] * drive.unit_force_n,
+        "sample_force": sampled_force_n(drive, x, np.array([osc.stiffness(fraction) for osc in oscillators])),
     }
     return {name: (("cycle", "sample"), values, attributes(name)) for name, values in found.items()}
 

@@ -11,12 +11,9 @@ from tqdm import tqdm
 from gearpair._checks import check_count, check_number, checked
 from gearpair.boundaries.dips import critical_dip
 from gearpair.design.charts import carried_runs, check_speeds, oscillators_at, settled_starts
-from gearpair.design.loads import same_motion
+from gearpair.design.found import Found, find_motions
 from gearpair.design.passages import check_one_course
 from gearpair.drive import GearDrive
-from gearpair.motion.measures import impact_measures
-from gearpair.motion.settling import Status
-from gearpair.motion.steady import SteadyState
 from gearpair.oscillator import Oscillator
 from gearpair.quantities import attributes
 
@@ -93,24 +90,20 @@ def shock_margin(
     up, down = carried_runs([oscillators], None, progress=progress)[0]
     started = settled_starts(oscillators, n_starts, None, progress=progress)
     rows = []
-    found = zip(oscillators, up, down, started, strict=True)
-    for osc, *both, others in tqdm(found, "shocks", len(speeds), unit="speed", disable=not progress):
-        rows.append(_row(osc, [*both, *others], cycles, n_phases, largest))
+    found = [find_motions(drive, *each) for each in zip(up, down, started, strict=True)]
+    pairs = zip(oscillators, found, strict=True)
+    for osc, motions in tqdm(pairs, "shocks", len(speeds), unit="speed", disable=not progress):
+        rows.append(_row(osc, motions, cycles, n_phases, largest))
     variables = {name: ("speed", np.array([row[name] for row in rows]), attributes(name)) for name in rows[0]}
     coordinates = {"speed": ("speed", speeds, attributes("speed"))}
     return xr.Dataset(variables, coordinates, {"drive": repr(drive), "cycles": cycles, "largest_dip": largest})
 
 
-def _row(
-    osc: Oscillator, states: list[SteadyState], cycles: int, n_phases: int, largest: float
-) -> dict[str, float | str]:
+def _row(osc: Oscillator, found: Found, cycles: int, n_phases: int, largest: float) -> dict[str, float | str]:
     """What one speed has."""
-    motions: list[SteadyState] = []
-    for state in states:
-        if state.status in (Status.ESCAPED, Status.CAPPED) or any(same_motion(state, each) for each in motions):
-            continue
-        motions.append(state)
-    factors = [impact_measures(each).load_factor for each in motions]
+    bounded = [j for j, state in enumerate(found.states) if state.impact_state is not None]
+    motions = [found.states[j] for j in bounded]
+    factors = [found.loads[j]["dynamic_factor"] for j in bounded]
     row: dict[str, float | str] = {"n_motions": len(motions), "quiet_motion": "", "loud_motion": "", "after_shock": ""}
     row |= dict.fromkeys(NUMBERS, np.nan)
     if not motions:

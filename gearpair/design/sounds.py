@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from gearpair._checks import check_class, check_count, check_number, checked
 from gearpair._equality import equal_by_value
+from gearpair.design.loads import sampled_force_n
 from gearpair.drive import GearDrive
 from gearpair.motion.settling import Status
 from gearpair.motion.steady import SteadyState
@@ -175,8 +176,7 @@ def _force_of(
     x, v = state.points[0].tolist()
     n_periods = osc.base_periods(int(np.ceil(seconds / mesh)) + 1)
     way = trajectory(osc, x, v, n_periods, samples_per_period=per_period)
-    pressed = np.sign(way.x) * np.clip(np.abs(way.x) - 1.0, 0.0, None)
-    return way.tau / second, pressed * osc.stiffness(way.tau / osc.mesh_period % 1.0) * drive.unit_force_n
+    return way.tau / second, sampled_force_n(drive, way.x, osc.stiffness(way.tau / osc.mesh_period % 1.0))
 
 
 def _force_in(run: xr.Dataset) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

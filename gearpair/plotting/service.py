@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import PercentFormatter
 
 from gearpair._checks import checked
-from gearpair.design import Identification
+from gearpair.design import Identification, helps_most
 from gearpair.plotting.paper import faint, legible, look_of
 from gearpair.plotting.speed_chart import BAND, CHANGES
 from gearpair.plotting.style import INK, add_legend, new_axes, note, over_parameter
@@ -56,16 +56,6 @@ def rattling_share(found: xr.Dataset, ax: Axes | None = None, **look: Any) -> Ax
     ax.yaxis.set_major_formatter(PercentFormatter(1.0))
     add_legend(ax, columns=2, loc="lower left", bbox_to_anchor=(0.0, 1.02), borderaxespad=0.0)
     return ax
-
-
-def helps_most(found: xr.Dataset) -> tuple[str, str]:
-    """The quantity, and the half of its values, with the smallest share of parting teeth over all speeds."""
-    names = [str(name) for name in found.quantity.values]
-    shares = found.half_share.mean("speed").values.copy()
-    if len(names) > 1:
-        shares[[name == "error_phase_rad" for name in names]] = np.inf
-    k, half = np.unravel_index(int(np.argmin(shares)), shares.shape)
-    return names[int(k)], str(found.half.values[int(half)])
 
 
 @checked

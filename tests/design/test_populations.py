@@ -6,12 +6,11 @@ import xarray as xr
 from scipy import stats
 
 import gearpair as gp
-from gearpair.design import population
+from gearpair.design import helps_most, population
 from gearpair.design.charts import carried_runs, oscillators_at
 from gearpair.design.loads import same_motion
 from gearpair.design.populations import binomial_interval, drive_of, sampled
 from gearpair.motion.impacts import ImpactState
-from gearpair.plotting.service import helps_most
 
 DRIVE = gp.GearDrive.from_pair(
     gp.SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0, transmission_error_um=3.0, damping_ratio=0.05
