@@ -14,7 +14,8 @@
 #                     bench extra first, and does without where it cannot be had); BENCH_ARGS=--quick for less
 #   make stability    run the chapters on other terms (another processor, one thread, other rounding) and compare their
 #                     outputs with the stored ones (half an hour); CHAPTERS="impacts method" for some of them
-#   make accept       re-execute the source notebooks and store their new outputs (review them with git diff)
+#   make accept       re-execute the source notebooks and store their new outputs (review them with git diff);
+#                     CHAPTERS="impacts method" for some of them
 #   make lock-teach   re-make requirements.lock from pyproject.toml and, in step with it, requirements-teach.lock
 #   make clean        remove what was generated (the environments stay)
 # Choose an interpreter with PYTHON=python3.12; pass options to pytest with PYTEST_ARGS="-k layers".
@@ -66,7 +67,7 @@ stability: $(READY)
 	@$(RUN) -m tools.other_terms $(CHAPTERS)
 
 accept: $(READY)
-	@$(RUN) -m tools.accept
+	@$(RUN) -m tools.accept $(CHAPTERS)
 
 # Before anything is written: an interpreter that will do, and leave to write.
 CAN_START = @$(if $(PYTHON),$(PYTHON),false) -c '$(VERSION_CHECK)' || { \

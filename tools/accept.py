@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import click
@@ -17,8 +17,8 @@ from gearpair.study.execution import execute
 from gearpair.study.record import KERNEL, RECORD
 
 
-def accept_outputs(book: Book, *, progress: bool = True) -> list[str]:
-    """Re-execute every source notebook with its defaults and store the new outputs.
+def accept_outputs(book: Book, names: Sequence[str] = (), *, progress: bool = True) -> list[str]:
+    """Re-execute the named source notebooks, or all of them, with their defaults and store the new outputs.
 
     All chapters run before any file is written. What differs from run to run or from machine to machine is not
     stored: images, sounds, what was written to stderr, papermill's notes.
@@ -31,7 +31,7 @@ def accept_outputs(book: Book, *, progress: bool = True) -> list[str]:
     scratch = book.root / "_build" / "accept"
     scratch.mkdir(parents=True, exist_ok=True)
     texts = {}
-    for chapter in book.chapters():
+    for chapter in [book.chapter(name) for name in names] or book.chapters():
         executed = execute(chapter, scratch / chapter.path.name, progress=progress)
         texts[chapter.path] = nbformat.writes(stable_notebook(chapter.path, executed), version=4) + "\n"
     changed = [path for path, text in texts.items() if path.read_text(encoding="utf-8") != text]
@@ -82,9 +82,10 @@ def _stable_output(output: nbformat.NotebookNode) -> nbformat.NotebookNode | Non
 
 @click.command()
 @click.option("--root", type=click.Path(path_type=Path), metavar="DIR", help="The checkout; found from here upwards.")
-def accept(root: Path | None) -> None:
-    """Re-execute the source notebooks and store their new outputs."""
-    changed = accept_outputs(Book.find(root))
+@click.argument("chapters", nargs=-1)
+def accept(root: Path | None, chapters: tuple[str, ...]) -> None:
+    """Re-execute the source notebooks of CHAPTERS, or all, and store their new outputs."""
+    changed = accept_outputs(Book.find(root), chapters)
     print(f"new outputs stored: {', '.join(changed)} (look at them with git diff)" if changed else "nothing changed")
 
 
