@@ -36,10 +36,8 @@ CHANGED = {
     "frequency_sweep": {"damping_ratio": "0.05", "n_values": "101", "reading": "swapped", "narrowest": "0.05"},
     "damping_sweep": {"mesh_frequency": "1.219", "highest": "0.2", "n_values": "51", "n_transient": "1000"},
     "method": {"mesh_frequency": "0.95", "reading": "swapped", "n_starts": "2", "n_values": "11"},
-    "reproduction": {
-        **{"n_values": "11", "n_fine": "21", "n_reached": "4", "phase_step": "60"},
-        **{"n_search": "11", "n_steps": "2", "n_phases": "2"},
-    },
+    "reproduction": {"n_reached": "4", "phase_step": "60"},
+    "reproduction_appendix": {"n_values": "11", "n_fine": "21", "n_search": "11", "n_steps": "2", "n_phases": "2"},
     "library": {"upper": "0.8", "n_values": "21"},
     "impacts": {"mean_force": "0.3", "reading": "swapped", "n_x": "13", "n_v": "9"},
     "speed_chart": {  # another pair, from another kind of drawing
@@ -67,7 +65,8 @@ REFUSED = {
     ),
     "damping_sweep": ("mesh_frequency", "0", "mesh_frequency must be a finite number above 0, got 0.0"),
     "method": ("mesh_frequency", "0", "mesh_frequency must be a finite number above 0, got 0.0"),
-    "reproduction": ("n_values", "1", "n_values must be a whole number of at least 2, got 1"),
+    "reproduction": ("phase_step", "7", "phase_step must be"),
+    "reproduction_appendix": ("n_values", "1", "n_values must be a whole number of at least 2, got 1"),
     "speed_chart": ("pinion_teeth", "8", "contact ratio is 0.91"),
     "in_service": ("dip_cycles", "0", "dip_cycles must be a whole number of at least 1, got 0"),
     "library": ("damping_ratio", "-1", "damping_ratio must be a finite number at least 0 and at most 100, got -1.0"),
