@@ -146,8 +146,8 @@ def test_a_measured_error_over_a_mesh_period():
 def test_a_measured_error_over_a_revolution(written, covers, teeth):
     turn = 2 * np.pi * np.arange(teeth * 8) / (teeth * 8)
     error = 5.0 * np.sin(teeth * turn + 0.4) + 12.0 * np.sin(turn - 1.0)
-    written("".join(f"{angle};{each}\n" for angle, each in zip(turn.tolist(), error.tolist(), strict=True)), "error.csv")
-    text = "backlash_um: 100\npinion_torque_nm: 9\ntransmission_error_csv: error.csv\n"
+    written("".join(f"{angle};{each}\n" for angle, each in zip(turn.tolist(), error.tolist(), strict=True)), "dte.csv")
+    text = "backlash_um: 100\npinion_torque_nm: 9\ntransmission_error_csv: dte.csv\n"
     drive = gp.GearDrive.from_file(written(f"{LEAST}{text}transmission_error_covers: {covers}\n"))
     assert (drive.transmission_error_um, drive.error_phase_rad) == pytest.approx((5.0, 0.4), abs=1e-9)
     (runout,) = drive.shaft_orders
@@ -187,7 +187,7 @@ BAD = {
     f"{LEAST}{REST}pinion_relief_um: 5\nrelief_length: 9": "length must be a finite number above 0 and at most",
     f"{LEAST}{REST}idle_order: 2": "idle_order, idle_swing_deg, idle_drag_nm go together, got idle_order alone",
     f"{LEAST}{REST}iso_grade: 14": "iso_grade must be a finite number at least 1 and at most 11, got 14.0",
-    f"{LEAST}{REST}transmission_error_csv: error.csv": "give transmission_error_um or transmission_error_csv, not both",
+    f"{LEAST}{REST}transmission_error_csv: dte.csv": "give transmission_error_um or transmission_error_csv, not both",
     f"{LEAST}{REST.replace('4', '[[0, 4, 0]]')}": "transmission_error_um[0] order must be a whole number of at least 1",
     f"{LEAST}backlash_um: 9\npinion_torque_nm: 1": "one of transmission_error_um, transmission_error_csv, iso_grade is",
     f"{LEAST}backlash_um: 9\niso_grade: 6\n": "pinion_torque_nm is needed, unless the gear idles",
@@ -208,21 +208,21 @@ def test_a_bad_file_gets_one_sentence(written, text):
 @pytest.mark.parametrize(
     ("numbers", "sentence"),
     [
-        (None, "error.csv cannot be read: No such file or directory"),
-        ("", "error.csv must hold one column, the error in micrometres, or two"),
-        ("1,2,3\n", "error.csv must hold one column, the error in micrometres, or two"),
-        ("error\n1\n2\nthree\n", "error.csv, line 4, must hold numbers, got 'three'"),
-        ("1\n2\n", "error.csv must hold at least 3 samples of a mesh period, got 2"),
-        ("1\nnan\n2\n", "error.csv must hold finite numbers"),
-        ("0 0\n", "error.csv must hold one column, the error in micrometres, or two"),
-        ("0,1\n1,2\n3,3\n", "error.csv must hold samples at equal steps, got steps from 1 to 2"),
+        (None, "dte.csv cannot be read: No such file or directory"),
+        ("", "dte.csv must hold one column, the error in micrometres, or two"),
+        ("1,2,3\n", "dte.csv must hold one column, the error in micrometres, or two"),
+        ("error\n1\n2\nthree\n", "dte.csv, line 4, must hold numbers, got 'three'"),
+        ("1\n2\n", "dte.csv must hold at least 3 samples of a mesh period, got 2"),
+        ("1\nnan\n2\n", "dte.csv must hold finite numbers"),
+        ("0 0\n", "dte.csv must hold one column, the error in micrometres, or two"),
+        ("0,1\n1,2\n3,3\n", "dte.csv must hold samples at equal steps, got steps from 1 to 2"),
     ],
 )
 def test_a_bad_measurement_gets_one_sentence(written, numbers, sentence):
     if numbers is not None:
-        written(numbers, "error.csv")
+        written(numbers, "dte.csv")
     with pytest.raises(ValueError) as failure:
-        read_drive_file(written(f"{LEAST}backlash_um: 9\npinion_torque_nm: 1\ntransmission_error_csv: error.csv\n"))
+        read_drive_file(written(f"{LEAST}backlash_um: 9\npinion_torque_nm: 1\ntransmission_error_csv: dte.csv\n"))
     assert sentence in str(failure.value) and "\n" not in str(failure.value)
 
 
