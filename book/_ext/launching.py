@@ -25,7 +25,7 @@ PLACES = (
     ),
     (
         "Colab",
-        "Needs a Google account; install the library in the first cell, as the recipes say",
+        "Needs a Google account; install the library in the first cell, as the introduction says",
         "https://colab.research.google.com/github/{repository}/blob/main/notebooks/{chapter}.ipynb",
     ),
     (
