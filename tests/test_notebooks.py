@@ -6,14 +6,17 @@ import re
 import shutil
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import nbformat
 import pytest
 from papermill import inspect_notebook
 
+from gearpair.parameters import BASELINE
 from gearpair.study.book import Book
 from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
+from gearpair.study.variants import defined_labels
 from tests.support import ROOT
 from tests.support.notebooks import MEAN, write_notebook
 from tools.accept import accept_outputs
@@ -145,6 +148,17 @@ def test_numbers_glued_into_the_prose_are_formatted_texts(path):
         for output in cell.outputs:
             record = output.get("data", {}).get("application/papermill.record/text/plain", "''")
             assert record.startswith("'"), f"glue a formatted text, not {record}"
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_text_that_is_left_out_elsewhere_defines_nothing_that_others_need(path):
+    notebook = nbformat.read(path, as_version=4)
+    for cell in notebook.cells:
+        if BASELINE in cell.metadata.get("tags", []):
+            assert cell.cell_type == "markdown", f"code runs for any parameters: {cell.source}"
+            assert not defined_labels(SimpleNamespace(cells=[cell])), f"a label: {cell.source}"
+            assert not re.search("^#", cell.source, re.MULTILINE), f"a heading: {cell.source}"
+            assert len(re.findall("^(```|:::)", cell.source, re.MULTILINE)) % 2 == 0, f"half a block: {cell.source}"
 
 
 @pytest.mark.parametrize("name", CHAPTERS)
