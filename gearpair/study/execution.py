@@ -4,7 +4,7 @@ import logging
 import os
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -66,7 +66,12 @@ papermill_engines.register("lively", LivelyEngine)
 
 
 def execute(
-    chapter: Chapter, output: Path, values: Mapping[str, Any] | None = None, *, progress: bool = True
+    chapter: Chapter,
+    output: Path,
+    values: Mapping[str, Any] | None = None,
+    *,
+    progress: bool = True,
+    last: Callable[[nbformat.NotebookNode], nbformat.NotebookNode] = lambda notebook: notebook,
 ) -> nbformat.NotebookNode:
     """Run `chapter` with `values` in place of its defaults and write the executed notebook to `output`.
 
@@ -75,7 +80,7 @@ def execute(
 
     `values` are the parameters to change, as `Chapter.parse` returns them; the directory of `output` exists. The
     notebook that is returned, too, ends with how it was made, and where a parameter is not the chapter's own it has
-    lost the text cells that speak of those. `progress` shows papermill's bar.
+    lost the text cells that speak of those. `progress` shows papermill's bar; `last` has the last word on the notebook.
 
     Raises
     ------
@@ -115,7 +120,7 @@ def execute(
         if problems := failures(chapter.name, notebook):
             raise StudyError(problems[0])
         notebook = recorded(notebook, chapter, values, circumstances(chapter.path, time.perf_counter() - began))
-        notebook = without_baseline(notebook, chapter, values)
+        notebook = last(without_baseline(notebook, chapter, values))
         nbformat.write(notebook, partial)
         os.replace(partial, output)
     return notebook

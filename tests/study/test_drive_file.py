@@ -146,7 +146,9 @@ def test_a_measured_error_over_a_mesh_period():
 def test_a_measured_error_over_a_revolution(written, covers, teeth):
     turn = 2 * np.pi * np.arange(teeth * 8) / (teeth * 8)
     error = 5.0 * np.sin(teeth * turn + 0.4) + 12.0 * np.sin(turn - 1.0)
-    written("".join(f"{angle};{each}\n" for angle, each in zip(turn.tolist(), error.tolist(), strict=True)), "error.csv")
+    written(
+        "".join(f"{angle};{each}\n" for angle, each in zip(turn.tolist(), error.tolist(), strict=True)), "error.csv"
+    )
     text = "backlash_um: 100\npinion_torque_nm: 9\ntransmission_error_csv: error.csv\n"
     drive = gp.GearDrive.from_file(written(f"{LEAST}{text}transmission_error_covers: {covers}\n"))
     assert (drive.transmission_error_um, drive.error_phase_rad) == pytest.approx((5.0, 0.4), abs=1e-9)
