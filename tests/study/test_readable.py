@@ -20,7 +20,7 @@ TEXT = """(sec-here)=
 ## Here
 
 The mean is {glue:text}`mean` and {glue:text}`missing`; see {numref}`fig-own`, {numref}`fig-other`, {eq}`eq-own`,
-{eq}`eq-far`, {ref}`sec-here`, [there](sec-far), [](sec-far), [](other.ipynb), [words](introduction.md), {term}`backlash`,
+{eq}`eq-far`, {ref}`sec-here`, [there](sec-far), [](sec-far), [](other.ipynb), [words](introduction.md), {term}`gap`,
 {term}`orbits <orbit>`, {cite:p}`hertz1881,two2000`, {cite:t}`three2001`,
 <a class="see-it-move" href="../explorer.html#x=1">move</a>.
 
@@ -78,7 +78,7 @@ def test_a_run_shows_its_numbers_and_names(pages, tmp_path):
     text = prose(notebook)
     for words in (
         "The mean is 0.20 and {glue:text}`missing`; see Figure 1, the figure “other” of “A small chapter”, (1),\n"
-        "(far, in “A small book”), “Here”, there, “Far away”, “A small chapter”, words, backlash,\n"
+        "(far, in “A small book”), “Here”, there, “Far away”, “A small chapter”, words, gap,\n"
         "orbits, (Hertz, 1881; de Oh and Eh, 2000), A et al. (2001),\nmove.",
         "\n## Here\n",
         "$$\nx\n\\tag{1}\n$$",
@@ -120,6 +120,6 @@ def test_what_the_renderer_can_do_is_left_to_it(pages):
     text = prose(without_ways_out(notebook, pages, ["book/introduction"]))
     for kept in ("{glue:text}`mean`", "{numref}`fig-own`", "{eq}`eq-far`", "{ref}`sec-here`", "[there](sec-far)"):
         assert kept in text
-    for kept in ("{term}`backlash`", "{term}`orbits <orbit>`", "{cite:p}`hertz1881,two2000`", "```{exercise} One"):
+    for kept in ("{term}`gap`", "{term}`orbits <orbit>`", "{cite:p}`hertz1881,two2000`", "```{exercise} One"):
         assert kept in text
     assert "the figure “other” of “A small chapter”" in text
