@@ -134,7 +134,7 @@ def _names(notebook: nbformat.NotebookNode, book: Book, beside: Collection[str] 
                 others[label] = f"“{headings[label]}”" if label in headings else _elsewhere(label, title)
     bibliography = book.root / "book" / "references.bib"
     cited = _cited(bibliography.read_text(encoding="utf-8")) if bibliography.is_file() else {}
-    return Names({k: v for k, v in others.items() if k not in own}, titles, own, _glued(notebook), cited)
+    return Names({k: v for k, v in others.items() if k not in own}, titles, own, glued_texts(notebook), cited)
 
 
 def _page(book: Book, file: str) -> str:
@@ -181,7 +181,8 @@ def _own(notebook: nbformat.NotebookNode) -> dict[str, str]:
     return named
 
 
-def _glued(notebook: nbformat.NotebookNode) -> dict[str, str]:
+def glued_texts(notebook: nbformat.NotebookNode) -> dict[str, str]:
+    """What the code of an executed notebook has glued, by name."""
     found = {}
     for cell in notebook.cells:
         for output in cell.get("outputs", []):

@@ -17,6 +17,7 @@ from gearpair.parameters import BASELINE
 from gearpair.study.chapters import Chapter
 
 TOLD = ("gearpair", "numpy", "scipy", "numba", "matplotlib", "xarray", "papermill")
+OWN = "As it is with the chapter's own parameters: "
 RECORD = "how-it-was-made"  # the tag and the id of the last cell
 KERNEL = {  # what a notebook tells of its kernel: nothing of this machine's
     "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
@@ -98,9 +99,16 @@ def changed(chapter: Chapter, values: Mapping[str, Any]) -> dict[str, Any]:
 def without_baseline(
     notebook: nbformat.NotebookNode, chapter: Chapter, values: Mapping[str, Any]
 ) -> nbformat.NotebookNode:
-    """The `notebook` without the text cells that speak of the chapter's own parameters, where a value is another."""
+    """The `notebook` without what speaks of the chapter's own parameters, where a value is another.
+
+    Text cells with the tag go; a figure's description for those who do not see it says of what it is.
+    """
     if changed(chapter, values):
         notebook.cells = [cell for cell in notebook.cells if not speaks_of_the_baseline(cell)]
+        for cell in notebook.cells:
+            image = cell.metadata.get("mystnb", {}).get("image", {})
+            if "alt" in image:
+                image["alt"] = f"{OWN}{image['alt']}"
     return notebook
 
 

@@ -19,6 +19,7 @@ def chapter(tmp_path):
     """One that has two texts, of which the second is of its own parameters."""
     path = write_notebook(tmp_path / "small.ipynb", CHECKED)
     notebook = nbformat.read(path, as_version=4)
+    notebook.cells[2].metadata["mystnb"] = {"image": {"alt": "A line."}}
     notebook.cells += [new_markdown_cell("Always."), new_markdown_cell(SPEAKS, metadata={"tags": ["baseline"]})]
     nbformat.write(notebook, path)
     return read_chapter(path)
@@ -33,6 +34,8 @@ def test_text_of_the_chapters_own_parameters_stays_where_they_are_those(chapter,
     notebook = without_baseline(nbformat.read(chapter.path, as_version=4), chapter, values)
     assert (SPEAKS in texts(notebook)) == stays
     assert "Always." in texts(notebook)
+    described = notebook.cells[2].metadata.mystnb.image.alt
+    assert described == ("A line." if stays else "As it is with the chapter's own parameters: A line.")
 
 
 @pytest.mark.slow
