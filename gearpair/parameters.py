@@ -5,6 +5,7 @@ command line or from a file; `gearpair run` runs the same cell before it starts 
 """
 
 import ast
+import os
 from collections.abc import Callable, Mapping
 from dataclasses import fields
 from difflib import get_close_matches
@@ -43,10 +44,15 @@ PARTS = (
 )
 MOST_MOTIONS = 10**7  # of each about a kilobyte is kept
 INJECTED = "# Parameters"  # how papermill begins the cell that it puts in
+BASELINE = "baseline"  # the tag of a text cell that speaks of the chapter's own parameters
+LEAVES_OUT = "GEARPAIR_LEAVES_OUT_BASELINE"  # in the environment of a kernel whose notebook loses those cells
 
 
 def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
     """Check a chapter's parameters by the objects that they feed; they are told by their names.
+
+    Where papermill has put in others than the chapter's own, print which, and that the text cells tagged ``baseline``
+    speak of the chapter's own. `gearpair run` leaves those cells out, and then nothing is printed.
 
     Parameters
     ----------
@@ -70,7 +76,7 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
         ...
     ValueError: lowest must be below highest, got lowest = 1.7 and highest = 0.7
     """
-    _check_names(values)
+    changed = _changed(values)
     osc = oscillator_of(values)
     if pair := _chosen(values, PAIR):
         mesh_stiffness(SpurPair(**pair), **_chosen(values, MESH))
@@ -96,6 +102,8 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
         if prod(counts.values()) > MOST_MOTIONS:
             names, got = " x ".join(counts), " x ".join(map(str, counts.values()))
             raise ValueError(f"{names} must be at most {MOST_MOTIONS}, the motions that memory holds, got {got}")
+    if changed and LEAVES_OUT not in os.environ:
+        print(f"Changed: {', '.join(changed)}. Text cells tagged {BASELINE!r} speak of the chapter's own parameters.")
 
 
 def oscillator_of(values: Mapping[str, Any]) -> Oscillator:
@@ -161,28 +169,47 @@ def unknown_name(name: str, known: Mapping[str, Any] | list[str], of: str) -> st
     return f"{of} has no parameter {name!r}; {help_}"
 
 
-def _check_names(values: Mapping[str, Any]) -> None:
-    """Refuse a parameter that papermill put in and the chapter's own cell does not declare; papermill only warns.
+def _changed(values: Mapping[str, Any]) -> list[str]:
+    """What papermill put in and differs from the chapter's own cell; refuse a name which that does not declare.
 
-    It warns in its own log, and leaves no trace in the kernel but the cell that it put in: an ordinary assignment, like
-    the chapter's own later ones. So the texts of the cells are read, of which IPython keeps a list, `In`.
+    papermill only warns of one, in its own log, and leaves no trace in the kernel but the cell that it put in: an
+    ordinary assignment, like the chapter's own later ones. So the texts of the cells are read, of which IPython keeps a
+    list, `In`.
     """
-    declared: set[str] = set()
+    declared: dict[str, Any] = {}
+    changed = []
     for text in values.get("In", []):
         if text.startswith(INJECTED):
             for statement in ast.parse(text).body:
                 for target in statement.targets if isinstance(statement, ast.Assign) else []:
-                    if isinstance(target, ast.Name) and declared and target.id not in declared:
+                    if not isinstance(target, ast.Name) or not declared:
+                        continue
+                    if target.id not in declared:
                         raise ValueError(unknown_name(target.id, sorted(declared), "this chapter"))
+                    value, own = _literal(statement.value), declared[target.id]
+                    if value != own:
+                        changed.append(f"{target.id} = {value!r} (the chapter's own is {own!r})")
         else:
             declared = _annotated(text) or declared
+    return changed
 
 
-def _annotated(text: str) -> set[str]:
-    """The names that a cell of annotated literals declares; none for any other cell."""
+def _literal(value: ast.expr) -> Any:
+    try:
+        return ast.literal_eval(value)
+    except ValueError:  # papermill writes float('nan')
+        return ast.unparse(value)
+
+
+def _annotated(text: str) -> dict[str, Any]:
+    """The names and literals that a cell of annotated literals declares; none for any other cell."""
     try:
         body = ast.parse(text).body
-    except SyntaxError:  # a cell may hold a magic of IPython
-        return set()
-    names = {s.target.id for s in body if isinstance(s, ast.AnnAssign) and isinstance(s.target, ast.Name)}
-    return names if len(names) == len(body) else set()
+        found = {
+            s.target.id: ast.literal_eval(s.value)
+            for s in body
+            if isinstance(s, ast.AnnAssign) and isinstance(s.target, ast.Name) and s.value is not None
+        }
+    except (SyntaxError, ValueError):  # a cell may hold a magic of IPython, or annotate what it computes
+        return {}
+    return found if len(found) == len(body) else {}

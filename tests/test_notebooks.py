@@ -6,16 +6,21 @@ import re
 import shutil
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import nbformat
 import pytest
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 from papermill import inspect_notebook
 
+from gearpair.parameters import BASELINE
 from gearpair.study.book import Book
 from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
+from gearpair.study.variants import defined_labels
 from tests.support import ROOT
 from tests.support.notebooks import MEAN, write_notebook
+from tests.support.shown import fallbacks, typed_numbers
 from tools.accept import accept_outputs
 
 BOOK = Book(ROOT)
@@ -27,26 +32,28 @@ NOTEBOOKS = sorted(
 CHAPTERS = BOOK.chapter_names()
 LONGEST_CELL = 14  # lines that are not blank; notebooks/README.md says so too
 
-# What each chapter is run with, beside its defaults, to show that its parameters are live.
+# What each chapter is run with, beside its defaults, to show that its parameters are live and what it says of them: far
+# from the defaults, where much of what a chapter looks for is not there.
 CHANGED = {
     "stiffness": {  # three pairs in contact: the article's rectangle does not exist
         **{"pinion_teeth": "40", "gear_teeth": "60", "module_mm": "2", "addendum": "1.3", "clearance": "0.2"},
         **{"tip_radius": "0.1", "gear_shift": "0.1", "foundation": "false", "reading": "swapped", "n_values": "21"},
     },
-    "frequency_sweep": {"damping_ratio": "0.05", "n_values": "101", "reading": "swapped", "narrowest": "0.05"},
-    "damping_sweep": {"mesh_frequency": "1.219", "highest": "0.2", "n_values": "51", "n_transient": "1000"},
+    "frequency_sweep": {"damping_ratio": "0.1", "n_values": "101", "reading": "swapped", "narrowest": "0.05"},
+    "damping_sweep": {"mesh_frequency": "0.55", "highest": "0.2", "n_values": "51", "n_transient": "1000"},
     "method": {"mesh_frequency": "0.95", "reading": "swapped", "n_starts": "2", "n_values": "11"},
     "reproduction": {"n_reached": "4", "phase_step": "60"},
     "reproduction_appendix": {"n_values": "11", "n_fine": "21", "n_search": "11", "n_steps": "2", "n_phases": "2"},
     "library": {"upper": "0.8", "n_values": "21"},
-    "impacts": {"mean_force": "0.3", "reading": "swapped", "n_x": "13", "n_v": "9"},
-    "speed_chart": {  # another pair, from another kind of drawing
+    "impacts": {"mean_force": "0.25", "damping_ratio": "0.06", "reading": "swapped", "n_x": "13", "n_v": "9"},
+    "speed_chart": {  # another pair, from another kind of drawing, whose teeth stay together
         **{
             "pinion_teeth": "25",
             "gear_teeth": "71",
             "module_mm": "2",
             "backlash": "thickness",
-            "pinion_torque_nm": "20",
+            "pinion_torque_nm": "200",
+            "damping_ratio": "0.5",
         },
         **{"pinion_shift": "0.2", "gear_added_inertia_kg_m2": "0.01", "n_speeds": "31", "n_starts": "3"},
     },
@@ -54,6 +61,18 @@ CHANGED = {
         **{"pinion_teeth": "25", "gear_teeth": "71", "module_mm": "2", "pinion_torque_nm": "20"},
         **{"n_speeds": "31", "n_starts": "2", "ramp_seconds": "0.2", "dip_cycles": "1", "coast_torque_nm": "-5"},
     },
+}
+# Decimals that a chapter's prose has and that hold for any parameters; the rest is glued, or stands in a cell tagged
+# `baseline`.
+TYPED = {
+    "frequency_sweep": "0.001 0.01 0.6 0.8 0.802 0.85 0.888 0.895 0.92 1.09 1.1 1.105 1.3 1.4 1.42 1.422 1.431 1.432 "
+    "1.44 1.593 1.5930 1.6 1.6026 1.7 4.669",
+    "damping_sweep": "0.0003 0.003 0.013 1.44",
+    "impacts": "0.4 0.97 1.0 1.3 1.57 1.95",
+    "in_service": "0.6 1.09 1.5",
+    "method": "0.001 1.09 1.42 1.593",
+    "reproduction": "0.0002 0.003 0.05",
+    "stiffness": "0.3 0.6 0.8 1.65",
 }
 # A value that the library refuses, and its sentence.
 REFUSED = {
@@ -146,6 +165,17 @@ def test_numbers_glued_into_the_prose_are_formatted_texts(path):
             assert record.startswith("'"), f"glue a formatted text, not {record}"
 
 
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_text_that_is_left_out_elsewhere_defines_nothing_that_others_need(path):
+    notebook = nbformat.read(path, as_version=4)
+    for cell in notebook.cells:
+        if BASELINE in cell.metadata.get("tags", []):
+            assert cell.cell_type == "markdown", f"code runs for any parameters: {cell.source}"
+            assert not defined_labels(SimpleNamespace(cells=[cell])), f"a label: {cell.source}"
+            assert not re.search("^#", cell.source, re.MULTILINE), f"a heading: {cell.source}"
+            assert len(re.findall("^(```|:::)", cell.source, re.MULTILINE)) % 2 == 0, f"half a block: {cell.source}"
+
+
 @pytest.mark.parametrize("name", CHAPTERS)
 @pytest.mark.slow
 def test_a_chapter_runs_with_other_parameters(name, tmp_path):
@@ -154,6 +184,45 @@ def test_a_chapter_runs_with_other_parameters(name, tmp_path):
     execute(chapter, tmp_path / "out.ipynb", values, progress=False)
     executed = nbformat.read(tmp_path / "out.ipynb", as_version=4)
     assert any("injected-parameters" in cell.metadata.get("tags", []) for cell in executed.cells)
+    assert not [cell.source for cell in executed.cells if BASELINE in cell.metadata.get("tags", [])]
+    assert not fallbacks(executed)
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
+def test_no_number_is_typed_into_text_that_is_shown_for_any_parameters(name):
+    notebook = nbformat.read(BOOK.chapter(name).path, as_version=4)
+    assert {*typed_numbers(notebook)} <= {*TYPED.get(name, "").split()}
+    assert not fallbacks(notebook)
+
+
+@pytest.mark.parametrize(
+    ("source", "text", "lost"),
+    [
+        ("chaos reaches from about\n{glue:text}`found`.", "nowhere", True),
+        ("it is found {glue:text}`found`.", "nowhere", False),
+        ("up to {glue:text}`found` rpm", "nan", True),
+        ("the flips at {glue:text}`found` and", "–", True),
+        ("ranges {glue:text}`found`", "0.7–1.7", False),
+        ("has {glue:text}`found` left", "None", True),
+        ("It ends. {glue:text}`found` of them is left", "None", False),
+        ("and {glue:text}`found` of them is left", "none", False),
+    ],
+)
+def test_a_word_for_what_was_not_found_is_seen_where_it_makes_no_sentence(source, text, lost):
+    output = new_output(
+        "display_data",
+        data={"application/papermill.record/text/plain": repr(text)},
+        metadata={"scrapbook": {"name": "found"}},
+    )
+    cells = [new_markdown_cell(source), new_code_cell("glue()", outputs=[output])]
+    assert bool(fallbacks(new_notebook(cells=cells))) == lost
+
+
+def test_a_typed_number_is_seen_but_the_articles_and_those_of_tasks():
+    sources = ["at 0.865 and 1.234, $x = 2.345$, `3.456`", "```{exercise} A\nTake 4.567.\n```", "at 5.678"]
+    cells = [new_markdown_cell(source) for source in sources]
+    cells[2].metadata["tags"] = [BASELINE]
+    assert typed_numbers(new_notebook(cells=cells)) == ["1.234"]
 
 
 @pytest.mark.parametrize("name", CHAPTERS)

@@ -134,6 +134,7 @@ def chapters(context: click.Context) -> None:
 @click.option("-o", "--output", type=PATH, metavar="OUT", help="The executed notebook; CHAPTER-run.ipynb, here.")
 @click.option("--html", is_flag=True, help="Make one web page of it (CHAPTER-run.html) that needs nothing else.")
 @click.option("--quiet", is_flag=True, help="No progress bar.")
+@click.option("--source", is_flag=True, hidden=True, help="Leave the notebook as the book's pages are made from.")
 @click.pass_context
 def run(
     context: click.Context,
@@ -143,6 +144,7 @@ def run(
     output: Path | None,
     html: bool,
     quiet: bool,
+    source: bool,
 ) -> None:
     """Execute one chapter with parameters of your own.
 
@@ -151,6 +153,7 @@ def run(
     from gearpair.study.cache import Cache
     from gearpair.study.estimate import warning
     from gearpair.study.execution import execute
+    from gearpair.study.readable import readable
 
     found = _book(context)
     read = found.chapter(chapter)
@@ -173,8 +176,10 @@ def run(
         from gearpair.study.page import make_page
 
         make_page(found, read, output, values, progress=not quiet)
-    else:
+    elif source:
         execute(read, output, values, progress=not quiet)
+    else:
+        execute(read, output, values, progress=not quiet, last=lambda notebook: readable(notebook, found))
     print(output)
 
 

@@ -4,7 +4,7 @@ import logging
 import os
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -19,10 +19,11 @@ from papermill.engines import NBClientEngine, papermill_engines
 from papermill.exceptions import PapermillExecutionError
 from traitlets.config import Config
 
+from gearpair.parameters import LEAVES_OUT
 from gearpair.study.chapters import Chapter
 from gearpair.study.claims import claimed
 from gearpair.study.errors import StudyError
-from gearpair.study.record import circumstances, recorded
+from gearpair.study.record import circumstances, recorded, without_baseline
 
 REFRESH = 10.0  # seconds between two signs of life
 PATIENCE = 120  # seconds for what a finished cell printed to arrive; the 4 of nbclient fail on a busy machine
@@ -37,7 +38,7 @@ class ThisInterpreter(AsyncKernelManager):
     @property
     def kernel_spec(self) -> KernelSpec:
         """The specification that ipykernel would install for this interpreter."""
-        return KernelSpec(**get_kernel_dict())
+        return KernelSpec(**get_kernel_dict(), env={LEAVES_OUT: "1"})
 
 
 class LivelyEngine(NBClientEngine):  # type: ignore[misc]
@@ -65,7 +66,12 @@ papermill_engines.register("lively", LivelyEngine)
 
 
 def execute(
-    chapter: Chapter, output: Path, values: Mapping[str, Any] | None = None, *, progress: bool = True
+    chapter: Chapter,
+    output: Path,
+    values: Mapping[str, Any] | None = None,
+    *,
+    progress: bool = True,
+    last: Callable[[nbformat.NotebookNode], nbformat.NotebookNode] = lambda notebook: notebook,
 ) -> nbformat.NotebookNode:
     """Run `chapter` with `values` in place of its defaults and write the executed notebook to `output`.
 
@@ -73,7 +79,8 @@ def execute(
     kill not beyond the next run of the same output.
 
     `values` are the parameters to change, as `Chapter.parse` returns them; the directory of `output` exists. The
-    notebook that is returned, too, ends with how it was made. `progress` shows papermill's bar.
+    notebook that is returned, too, ends with how it was made, and where a parameter is not the chapter's own it has
+    lost the text cells that speak of those. `progress` shows papermill's bar; `last` has the last word on the notebook.
 
     Raises
     ------
@@ -113,6 +120,7 @@ def execute(
         if problems := failures(chapter.name, notebook):
             raise StudyError(problems[0])
         notebook = recorded(notebook, chapter, values, circumstances(chapter.path, time.perf_counter() - began))
+        notebook = last(without_baseline(notebook, chapter, values))
         nbformat.write(notebook, partial)
         os.replace(partial, output)
     return notebook

@@ -17,12 +17,12 @@ from gearpair.study.chapters import Chapter
 from gearpair.study.claims import claimed
 from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
+from gearpair.study.readable import without_ways_out
 
 MATHJAX = ("sphinx-mathjax-offline", "static/mathjax/tex-svg.js")  # the one of its scripts that loads nothing else
 STYLE = (
     "body{margin:0}main{max-width:60rem;margin:2rem auto;padding:0 1rem}img{max-width:100%}.headerlink{display:none}"
 )
-LINK = re.compile(r"\[([^\]]*)\]\((?:[./\w-]*/)?([\w-]+)\.ipynb(?:#[\w-]+)?\)")  # to another chapter
 PAGE = """<!DOCTYPE html>
 <html lang="en">
 <head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
@@ -49,11 +49,8 @@ def make_page(
         copy_sources(book.root, source)
         notebook = source / EXECUTED / f"{chapter.name}.ipynb"
         executed = execute(chapter, notebook, values, progress=progress)
-        titles = {each.name: each.title for each in book.chapters()}
-        for cell in executed.cells:
-            if cell.cell_type == "markdown":
-                cell.source = LINK.sub(lambda link: link[1] or titles.get(link[2], link[2]), cell.source)
-        nbformat.write(executed, notebook)
+        prose = [str(book.toc["root"]), *(page for page in book.pages() if not page.startswith(EXECUTED))]
+        nbformat.write(without_ways_out(executed, book, prose), notebook)
         write_toc(source, _toc_of_one(book, f"{EXECUTED}{chapter.name}"))
         code, told = run_jupyter_book(source, scratch / "site")
         html = scratch / "site" / "_build" / "html"

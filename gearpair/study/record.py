@@ -13,9 +13,11 @@ from typing import Any
 import nbformat
 from nbformat.v4 import new_markdown_cell
 
+from gearpair.parameters import BASELINE
 from gearpair.study.chapters import Chapter
 
 TOLD = ("gearpair", "numpy", "scipy", "numba", "matplotlib", "xarray", "papermill")
+OWN = "As it is with the chapter's own parameters: "
 RECORD = "how-it-was-made"  # the tag and the id of the last cell
 KERNEL = {  # what a notebook tells of its kernel: nothing of this machine's
     "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
@@ -89,16 +91,41 @@ def recorded(
     return notebook
 
 
+def changed(chapter: Chapter, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Those of the `values` that are not the chapter's own."""
+    return {name: value for name, value in values.items() if value != chapter.defaults.get(name)}
+
+
+def without_baseline(
+    notebook: nbformat.NotebookNode, chapter: Chapter, values: Mapping[str, Any]
+) -> nbformat.NotebookNode:
+    """The `notebook` without what speaks of the chapter's own parameters, where a value is another.
+
+    Text cells with the tag go; a figure's description for those who do not see it says of what it is.
+    """
+    if changed(chapter, values):
+        notebook.cells = [cell for cell in notebook.cells if not speaks_of_the_baseline(cell)]
+        for cell in notebook.cells:
+            image = cell.metadata.get("mystnb", {}).get("image", {})
+            if "alt" in image:
+                image["alt"] = f"{OWN}{image['alt']}"
+    return notebook
+
+
+def speaks_of_the_baseline(cell: nbformat.NotebookNode) -> bool:
+    """Whether a cell is text that holds for the chapter's own parameters and need not for others."""
+    return cell.cell_type == "markdown" and BASELINE in cell.metadata.get("tags", [])
+
+
 def _injected(cell: nbformat.NotebookNode) -> bool:
     """Whether papermill put the cell in, to set parameters."""
     return "injected-parameters" in cell.metadata.get("tags", [])
 
 
 def _record(chapter: Chapter, values: Mapping[str, Any], made: Mapping[str, Any]) -> str:
-    changed = {name: value for name, value in values.items() if value != chapter.defaults.get(name)}
-    parameters = ", ".join(f"`{name} = {value!r}`" for name, value in changed.items())
+    others = ", ".join(f"`{name} = {value!r}`" for name, value in changed(chapter, values).items())
     rows = {
-        "parameters": f"{parameters}; the others as at the head" if changed else "as at the head",
+        "parameters": f"{others}; the others as at the head" if others else "as at the head",
         "versions": ", ".join(f"{name} {number}" for name, number in made["versions"].items()),
         "revision": made["revision"],
         "run time": f"{made['seconds']:.0f} s",

@@ -99,7 +99,16 @@ def _start(task: Task, scratch: Path) -> subprocess.Popen[bytes]:
     task.began, task.log = time.monotonic(), scratch / f"{task.name}.log"
     parameters = scratch / f"{task.name}.yml"
     parameters.write_text(json.dumps(task.values), encoding="utf-8")  # JSON is YAML
-    words = ["run", str(task.chapter.path), "--output", str(task.kept), "--quiet", "--file", str(parameters)]
+    words = [
+        "run",
+        str(task.chapter.path),
+        "--output",
+        str(task.kept),
+        "--quiet",
+        "--source",
+        "--file",
+        str(parameters),
+    ]
     path = os.pathsep.join(filter(None, [str(LIBRARY.parent), os.environ.get("PYTHONPATH")]))
     with task.log.open("wb") as log:
         return subprocess.Popen(

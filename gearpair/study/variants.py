@@ -25,6 +25,7 @@ from nbformat.v4 import new_markdown_cell
 
 from gearpair.study.chapters import Chapter
 from gearpair.study.errors import StudyError
+from gearpair.study.record import changed
 
 FIELDS = ("chapter", "title", "why", "parameters")
 # Where MyST defines a label: (label)= before a block, $$ (label) after a formula, :label: and :name: of a directive.
@@ -89,16 +90,15 @@ def _head(variant: Variant) -> str:
     declared = {parameter.name: parameter for parameter in variant.chapter.parameters}
     rows = [
         f"| `{name}` | {declared[name].comment} | `{declared[name].default!r}` | **`{value!r}`** |"
-        for name, value in variant.values.items()
-        if value != declared[name].default
+        for name, value in changed(variant.chapter, variant.values).items()
     ]
     table = "\n".join(["| parameter | what it is | in the chapter | here |", "|---|---|---|---|", *rows])
     chapter = f"[{variant.chapter.title}]({variant.chapter.path.name})"
     return (
         f"# {variant.title}\n\n{variant.why}\n\n"
         f"This page is the chapter {chapter}, computed again with other parameters. Figures, tables and the numbers in "
-        "the text are those of this variant; the words around them were written for the chapter, and where they "
-        f"describe its parameters they do not hold here.\n\n{table}"
+        "the text are those of this variant; what the chapter says of its own parameters alone is left out."
+        f"\n\n{table}"
     )
 
 

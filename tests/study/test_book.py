@@ -159,7 +159,11 @@ def test_a_variants_page_tells_what_was_changed_and_keeps_its_labels_apart(small
     before = nbformat.writes(notebook)
     page = variant_page(variant, notebook)
     head, text = page.cells[0].source, page.cells[1].source
-    assert head.startswith("# More\n\nBecause.") and "(small.ipynb)" in head
+    assert (
+        head.startswith("# More\n\nBecause.")
+        and "of its own parameters alone is left out" in head
+        and "(small.ipynb)" in head
+    )
     assert "| `a` | stiffness added in double contact | `0.116` | **`0.2`** |" in head
     assert text.startswith("## A small chapter")
     assert "(sec-end-more)=" in text and "$$ (eq-x-more)" in text and ":label: ex-one-more" in text
