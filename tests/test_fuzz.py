@@ -59,6 +59,7 @@ SWING = {"order": 2.0, "pinion_swing_deg": 0.3, "drag_torque_nm": 0.2}
 # By function: its good arguments, beside those that are the same everywhere.
 CALLS = {
     "motion": {
+        "energy_balance": lambda: {"osc": OSC, "x": 1.0, "v": 0.0, "n_periods": 2},
         "impact_measures": lambda: {"state": made("state")},
         "impact_state": lambda: {"x_min": 0.0, "x_max": 1.5},
         "lyapunov_exponents": lambda: {"osc": OSC, "x": 1.0, "v": 0.0, "n_periods": 5},

@@ -46,6 +46,7 @@ CHANGED = {
     "reproduction_appendix": {"n_values": "11", "n_fine": "21", "n_search": "11", "n_steps": "2", "n_phases": "2"},
     "library": {"upper": "0.8", "n_values": "21"},
     "impacts": {"mean_force": "0.25", "damping_ratio": "0.06", "reading": "swapped", "n_x": "13", "n_v": "9"},
+    "others": {"mean_force": "0.25", "damping_ratio": "0.06", "reading": "swapped", "n_values": "9", "n_speeds": "15"},
     "speed_chart": {  # another pair, from another kind of drawing, whose teeth stay together
         **{
             "pinion_teeth": "25",
@@ -88,6 +89,7 @@ REFUSED = {
     "reproduction_appendix": ("n_values", "1", "n_values must be a whole number of at least 2, got 1"),
     "speed_chart": ("pinion_teeth", "8", "contact ratio is 0.91"),
     "in_service": ("dip_cycles", "0", "dip_cycles must be a whole number of at least 1, got 0"),
+    "others": ("error_amplitude", "-1", "error_amplitude must be a finite number at least 0, got -1.0"),
     "library": ("damping_ratio", "-1", "damping_ratio must be a finite number at least 0 and at most 100, got -1.0"),
     "impacts": ("error_amplitude", "-1", "error_amplitude must be a finite number at least 0, got -1.0"),
 }

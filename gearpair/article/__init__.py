@@ -4,7 +4,7 @@ A *reading* is one way to understand the article's equation: of its wave alone (
 of it (`Hypothesis`). The case about its numbers has a folder of its own, `case`.
 """
 
-from gearpair.article import case, published
+from gearpair.article import case, others, published
 from gearpair.article.comparison import compare_attractors, compare_boundaries, compare_ranges
 from gearpair.article.readings import PRINTED, SWAPPED, Hypothesis
 from gearpair.article.wave_shape import SweptWave, sweep_waves
@@ -18,6 +18,7 @@ __all__ = [
     "compare_attractors",
     "compare_boundaries",
     "compare_ranges",
+    "others",
     "published",
     "sweep_waves",
 ]

@@ -1,5 +1,6 @@
 """One motion of one oscillator: from a start, what it settles on, how stable it is, and what it is called."""
 
+from gearpair.motion.energy import EnergyBalance, energy_balance
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.measures import ImpactMeasures, impact_measures
 from gearpair.motion.names import CHAOS, Motion, motions_of, periodic
@@ -14,6 +15,7 @@ from gearpair.motion.zero_one import zero_one_test
 __all__ = [
     "CHAOS",
     "BatchOptions",
+    "EnergyBalance",
     "ImpactMeasures",
     "ImpactState",
     "Impacts",
@@ -23,6 +25,7 @@ __all__ = [
     "Status",
     "SteadyState",
     "Trajectory",
+    "energy_balance",
     "impact_measures",
     "impact_state",
     "lyapunov_exponents",
