@@ -39,6 +39,10 @@ CHANGED = {
         **{"pinion_teeth": "40", "gear_teeth": "60", "module_mm": "2", "addendum": "1.3", "clearance": "0.2"},
         **{"tip_radius": "0.1", "gear_shift": "0.1", "foundation": "false", "reading": "swapped", "n_values": "21"},
     },
+    "tooth_bending": {  # the same, and a thin ring on its bore
+        **{"pinion_teeth": "40", "gear_teeth": "60", "module_mm": "2", "addendum": "1.3", "clearance": "0.2"},
+        **{"tip_radius": "0.1", "gear_shift": "0.1", "bore_ratio": "0.6", "coupling": "ring"},
+    },
     "frequency_sweep": {"damping_ratio": "0.1", "n_values": "101", "reading": "swapped", "narrowest": "0.05"},
     "damping_sweep": {"mesh_frequency": "0.55", "highest": "0.2", "n_values": "51", "n_transient": "1000"},
     "method": {"mesh_frequency": "0.95", "reading": "swapped", "n_starts": "2", "n_values": "11"},
@@ -78,6 +82,7 @@ TYPED = {
 # A value that the library refuses, and its sentence.
 REFUSED = {
     "stiffness": ("gear_teeth", "8", "contact ratio is 0.91"),
+    "tooth_bending": ("gear_teeth", "8", "contact ratio is 0.91"),
     "frequency_sweep": (
         "damping_ratio",
         "-0.05",
