@@ -11,6 +11,7 @@ import nbformat
 import pytest
 from papermill import inspect_notebook
 
+import gearpair as gp
 from gearpair.study.book import Book
 from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
@@ -155,6 +156,21 @@ def test_a_chapter_runs_with_other_parameters(name, tmp_path):
     execute(chapter, tmp_path / "out.ipynb", values, progress=False)
     executed = nbformat.read(tmp_path / "out.ipynb", as_version=4)
     assert any("injected-parameters" in cell.metadata.get("tags", []) for cell in executed.cells)
+
+
+@pytest.mark.slow
+def test_a_chapter_takes_a_drive_from_its_file(tmp_path):
+    """Torque and teeth are those of the file and not those of the parameters cell."""
+    drive = gp.GearDrive.from_pair(
+        gp.SpurPair(20, 31), pinion_torque_nm=45.0, backlash_um=80.0, transmission_error_um=2.0, damping_ratio=0.06
+    )
+    drive.to_file(tmp_path / "pair.yml")
+    chapter = BOOK.chapter("in_service")
+    few = [("n_speeds", "21"), ("n_starts", "0"), ("ramp_seconds", "0.2")]
+    values = chapter.parse([("drive", str(tmp_path / "pair.yml")), *few])
+    execute(chapter, tmp_path / "out.ipynb", values, progress=False)
+    text = stored_text(tmp_path / "out.ipynb")
+    assert "'45'" in text and "120" not in re.findall(r"'(\d+)'", text)
 
 
 @pytest.mark.parametrize("name", CHAPTERS)
