@@ -40,21 +40,24 @@ def test_a_margin_against_a_brute_force_of_passages() -> None:
     quiet, loud = states[0], states[-1]
     assert (quiet.period, loud.period) == (1, 1) and quiet.x_min > 1.0 > loud.x_min
 
-    def smallest(state: gp.SteadyState, sense: float) -> tuple[float, float]:
-        """The smallest change that ends the motion, and the phase at which it begins; nan where none does."""
+    def smallest(state: gp.SteadyState, sense: float) -> tuple[float, list[float]]:
+        """The smallest change that ends the motion, and the phases at which it may begin; nan where none does."""
         for size in sizes.tolist():
+            ends = []
             for k in range(n_phases):
                 section = at_phase(osc, k / n_phases)
                 start = gp.trajectory(osc, *state.points[0].tolist(), 1, samples_per_period=n_phases)
                 dipped = section.replace(mean_force=osc.mean_force * (1.0 + sense * size))
                 run = gp.passage([dipped] * cycles + [section] * 300, float(start.x[k]), float(start.v[k]))
                 if (run.x_min.values[-1] < 1.0) != (state.x_min < 1.0):
-                    return size, k / n_phases
-        return np.nan, np.nan
+                    ends.append(k / n_phases)
+            if ends:
+                return size, ends
+        return np.nan, []
 
     step = sizes[1] - sizes[0]
-    size, phase = smallest(quiet, -1.0)
-    assert size - step < float(margin.shock_margin) <= size and float(margin.shock_phase) == phase
+    size, phases = smallest(quiet, -1.0)
+    assert size - step < float(margin.shock_margin) <= size and float(margin.shock_phase) in phases
     for name, sense in (("dip_back", -1.0), ("surge_back", 1.0)):
         size, _ = smallest(loud, sense)
         found = float(margin[name])
