@@ -96,9 +96,9 @@ def bifurcation_diagram(
     note(ax, title, (0.0, 1.0), (6, -4), xycoords="axes fraction", va="top")
     if legend:
         add_motion_legend(ax, motions)
-        key = ax.get_legend()
-        for dot, text in zip(key.legend_handles, key.get_texts(), strict=True):
-            dot.set_color(drawn[text.get_text()])
+        if (key := ax.get_legend()) is not None:
+            for dot, text in zip(key.get_lines(), key.get_texts(), strict=True):
+                dot.set_color(drawn[text.get_text()])
     return ax
 
 
