@@ -30,7 +30,8 @@ class Measured:
     job : str
         A name in `JOBS`.
     size : int
-        Values of a diagram, starts along each side of a grid, motions of a plane, speeds, boxes or repetitions.
+        Values of a diagram, starts or starts along each side of a grid, motions of a plane, mesh periods, speeds,
+        boxes, seconds or repetitions.
     seconds : float
     processor_seconds : float
         Summed over the cores; what the machine does for others does not count.
@@ -83,6 +84,17 @@ def chart(n: int) -> None:
     gp.design.speed_chart(drawn(), np.linspace(1500.0, 13000.0, n), n_starts=12)
 
 
+def attractors(n: int) -> None:
+    """The attractors that n random starts lead to, at the baseline."""
+    gp.attractors(gp.Oscillator(), n)
+
+
+def changing(n: int) -> None:
+    """A passage over n mesh periods, each at a speed of its own."""
+    osc = gp.Oscillator(error_amplitude=0.05, damping_ratio=0.05)
+    gp.passage([osc.replace(mesh_frequency=each) for each in np.linspace(0.5, 1.1, n).tolist()], 1.1, 0.0)
+
+
 def ramp(n: int) -> None:
     """A drawn pair run up through its resonance in n mesh periods."""
     gp.design.run_up(drawn(), 5000.0, 13000.0, n / (9000.0 / 60.0 * 28))
@@ -105,16 +117,25 @@ def rig(n: int) -> None:
         gp.design.identify(drawn().at_phase(0.3), 9105.26, 7332.83)
 
 
+def heard(n: int) -> None:
+    """n seconds of a steady motion of the drawn pair as sound."""
+    drive = drawn().at_speed(7000.0)
+    gp.design.sound(drive, gp.steady_state(drive.oscillator()), float(n))
+
+
 JOBS = {
     "diagram": diagram,
     "restarted": restarted,
     "grid": grid,
     "plane": plane,
     "chart": chart,
+    "attractors": attractors,
+    "changing": changing,
     "ramp": ramp,
     "shocks": shocks,
     "boxes": boxes,
     "rig": rig,
+    "heard": heard,
 }
 
 

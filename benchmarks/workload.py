@@ -20,6 +20,8 @@ SPEEDS = (40, 160)
 PERIODS = (1000, 10_000)
 SHOCKS = (10, 40)
 BOXES = (100, 400)
+STARTS_TRIED = (1000, 10_000)
+HEARD = (1, 10)
 # Too small to change the motion, so that what they cost is what the harmonics themselves cost.
 FIVE_HARMONICS = tuple((order, 1e-9, 0.3) for order in (2, 3, 4, 5))
 SHAFTS = {"run-out, 34 teeth": [(34, 1e-9)], "run-out, 25 and 71 teeth": [(25, 1e-9), (71, 1e-9)]}
@@ -43,14 +45,19 @@ def growth() -> Table:
     planes, charts = run_apart("plane", MOTIONS), run_apart("chart", SPEEDS)
     ramps, shocks = run_apart("ramp", PERIODS), run_apart("shocks", SHOCKS)
     series, rigs = run_apart("boxes", BOXES), run_apart("rig", (1,))
+    many, passed = run_apart("attractors", STARTS_TRIED), run_apart("changing", PERIODS)
+    sounds = run_apart("heard", HEARD)
     rows = [_cost(m, f"diagram up and down, {m.size} values", 2 * m.size, diagrams[0]) for m in diagrams[1:]]
     rows += [_cost(m, f"{m.size} x {m.size} starts", m.size**2, grids[0]) for m in grids[1:]]
     rows += [_cost(m, f"speed and damping, {m.size} motions", m.size, planes[0]) for m in planes[1:]]
     rows += [_cost(m, f"speed chart, {m.size} speeds", (2 + 12) * m.size, charts[0]) for m in charts[1:]]
+    rows += [_cost(m, f"attractors of {m.size} starts", m.size, many[0]) for m in many[1:]]
+    rows += [_cost(m, f"passage, {m.size} mesh periods", m.size, passed[0]) for m in passed[1:]]
     rows += [_cost(m, f"run-up, {m.size} mesh periods", m.size, ramps[0]) for m in ramps[1:]]
     rows += [_cost(m, f"shock margin, {m.size} speeds", m.size, shocks[0]) for m in shocks[1:]]
     rows += [_cost(m, f"{m.size} gearboxes, 81 speeds", 2 * 81 * m.size, series[0]) for m in series[1:]]
     rows += [_cost(m, "two speeds of a test rig", 1, rigs[0]) for m in rigs[1:]]
+    rows += [_cost(m, f"sound of {m.size} s", m.size, sounds[0]) for m in sounds[1:]]
     return Table(("job", "seconds", "processor s", "us / motion", "peak MiB", "MiB for it"), rows)
 
 

@@ -141,7 +141,7 @@ def _check_alone(name: str, value: Any) -> None:
         _check_as(name, lambda: check_start(*value))
     elif name in ("start_x", "start_v", "coast_torque_nm"):
         check_number(name, value)
-    elif name in ("x_reach", "v_reach", "pinion_torque_nm", "weak_damping", *SECONDS) or (
+    elif name in ("x_reach", "v_reach", "pinion_torque_nm", "weak_damping", "rig_step_rpm", *SECONDS) or (
         name in SPEEDS and value is not None
     ):
         check_number(name, value, above=0.0)

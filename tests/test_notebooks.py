@@ -13,6 +13,7 @@ import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 from papermill import inspect_notebook
 
+import gearpair as gp
 from gearpair.parameters import BASELINE
 from gearpair.study.book import Book
 from gearpair.study.errors import StudyError
@@ -230,6 +231,21 @@ def test_a_typed_number_is_seen_but_the_articles_and_those_of_tasks():
     cells = [new_markdown_cell(source) for source in sources]
     cells[2].metadata["tags"] = [BASELINE]
     assert typed_numbers(new_notebook(cells=cells)) == ["1.234"]
+
+
+@pytest.mark.slow
+def test_a_chapter_takes_a_drive_from_its_file(tmp_path):
+    """Torque and teeth are those of the file and not those of the parameters cell."""
+    drive = gp.GearDrive.from_pair(
+        gp.SpurPair(20, 31), pinion_torque_nm=45.0, backlash_um=80.0, transmission_error_um=2.0, damping_ratio=0.06
+    )
+    drive.to_file(tmp_path / "pair.yml")
+    chapter = BOOK.chapter("in_service")
+    few = [("n_speeds", "21"), ("n_starts", "0"), ("ramp_seconds", "0.2")]
+    values = chapter.parse([("drive", str(tmp_path / "pair.yml")), *few])
+    execute(chapter, tmp_path / "out.ipynb", values, progress=False)
+    text = stored_text(tmp_path / "out.ipynb")
+    assert "'45'" in text and "120" not in re.findall(r"'(\d+)'", text)
 
 
 @pytest.mark.parametrize("name", CHAPTERS)

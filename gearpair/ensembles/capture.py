@@ -106,7 +106,7 @@ def marks_of(columns: Mapping[str, NDArray[Any]]) -> NDArray[np.int64]:
     marks[:, 0], marks[:, 1] = 10 * status, 10 * period
     orbit, chaos = status == PERIODIC, status == APERIODIC
     for k, name in enumerate(("section_x", "section_v")):
-        marks[orbit, 2 + k] = np.round(columns[name][orbit] / SAME_ORBIT)
+        marks[orbit, 2 + k] = np.round(np.nan_to_num(columns[name][orbit]) / SAME_ORBIT)  # nan where not kept
     marks[chaos, 2] = 10 * columns["chaotic_set"][chaos]
     return marks
 

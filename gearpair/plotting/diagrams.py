@@ -73,7 +73,7 @@ def bifurcation_diagram(
     parameter = swept_parameter(sweep)
     motions = motions_of(sweep)
     names = np.array([legend_name(motion) for motion in motions])
-    values = sweep[parameter].values
+    values, drawn = sweep[parameter].values, {}
     for name in sorted(set(names.tolist()), key=lambda name: -int(np.sum(names == name))):
         points = _section_points(sweep, names == name)
         chosen = motions[names == name]
@@ -81,7 +81,8 @@ def bifurcation_diagram(
         beyond = escaped | np.any(np.abs(points) > reach, axis=1)
         points[beyond] = np.nan
         where = np.repeat(values[names == name], points.shape[1])
-        many, colour = not chosen[0].period, colour_on(ax, chosen[0])
+        many, colour = not chosen[0].period, look_of(Line2D, look, color=colour_on(ax, chosen[0]))["color"]
+        drawn[name] = colour
         usual: dict[str, Any] = {"markersize": 0.6 * size, "alpha": 0.5} if many else {"markersize": 1.6 * size}
         usual |= {"linestyle": "", "marker": ".", "markeredgewidth": 0, "rasterized": True}
         ax.plot(where, points.ravel(), **look_of(Line2D, look, color=colour, label=name, **usual))
@@ -95,6 +96,9 @@ def bifurcation_diagram(
     note(ax, title, (0.0, 1.0), (6, -4), xycoords="axes fraction", va="top")
     if legend:
         add_motion_legend(ax, motions)
+        if (key := ax.get_legend()) is not None:
+            for dot, text in zip(key.get_lines(), key.get_texts(), strict=True):
+                dot.set_color(drawn[text.get_text()])
     return ax
 
 

@@ -120,6 +120,9 @@ def _map(ax: Axes, result: xr.Dataset, numbers: np.ndarray, colours: Sequence[Co
 
 
 def _plane(ax: Axes, result: xr.Dataset, values: np.ndarray, look: Mapping[str, Any], **colours: Any) -> QuadMesh:
+    for name in ("color", "colour"):
+        if name in look:  # matplotlib would paint the edges of the cells with it
+            raise TypeError(f"unknown option {name}={look[name]!r}: the colours of a map say where each start leads")
     ax.set(xlabel=axis_label("start_x"), ylabel=axis_label("start_v"))
     image = look_of(QuadMesh, look, ENDS, rasterized=True, **colours)
     return ax.pcolormesh(result.x.values, result.v.values, values, shading="nearest", **image)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair.design import shock_margin, speed_chart
+from gearpair.boundaries import at_phase
+from gearpair.design import measure_motion, shock_margin, speed_chart
 
 PAIR = gp.SpurPair(pinion_teeth=28, gear_teeth=57, module_mm=3.0, face_width_mm=25.0)
 DRIVE = gp.GearDrive.from_pair(
@@ -26,6 +27,42 @@ def test_margins_over_the_range_of_two_motions() -> None:
     assert (np.diff(margin.dip_back.values[1:-1]) > 0.0).all() and margin.dip_back.values[1] < 0.15
     assert set(margin.after_shock.values[1:-1]) == {"period 1, single-sided"}
     assert (margin.loud_factor > margin.quiet_factor).values[1:-1].all()
+
+
+@pytest.mark.slow
+def test_a_margin_against_a_brute_force_of_passages() -> None:
+    """Every dip and rise of a grid, at every phase, by a passage of its own: the smallest that ends the motion."""
+    cycles, n_phases, sizes = 2, 4, np.linspace(0.01, 1.0, 100)
+    margin = shock_margin(DRIVE, [8000.0, 8300.0], cycles=cycles, n_phases=n_phases, n_starts=4).isel(speed=1)
+    drive = DRIVE.at_speed(8300.0)
+    osc = drive.oscillator()
+    states = sorted(gp.attractors(osc, 300), key=lambda state: measure_motion(drive, state)["dynamic_factor"])
+    quiet, loud = states[0], states[-1]
+    assert (quiet.period, loud.period) == (1, 1) and quiet.x_min > 1.0 > loud.x_min
+
+    def smallest(state: gp.SteadyState, sense: float) -> tuple[float, list[float]]:
+        """The smallest change that ends the motion, and the phases at which it may begin; nan where none does."""
+        for size in sizes.tolist():
+            ends = []
+            for k in range(n_phases):
+                section = at_phase(osc, k / n_phases)
+                start = gp.trajectory(osc, *state.points[0].tolist(), 1, samples_per_period=n_phases)
+                dipped = section.replace(mean_force=osc.mean_force * (1.0 + sense * size))
+                run = gp.passage([dipped] * cycles + [section] * 300, float(start.x[k]), float(start.v[k]))
+                if (run.x_min.values[-1] < 1.0) != (state.x_min < 1.0):
+                    ends.append(k / n_phases)
+            if ends:
+                return size, ends
+        return np.nan, []
+
+    step = sizes[1] - sizes[0]
+    size, phases = smallest(quiet, -1.0)
+    assert size - step < float(margin.shock_margin) <= size and float(margin.shock_phase) in phases
+    for name, sense in (("dip_back", -1.0), ("surge_back", 1.0)):
+        size, _ = smallest(loud, sense)
+        found = float(margin[name])
+        assert np.isnan(size) == np.isnan(found)
+        assert np.isnan(size) or size - step < found <= size
 
 
 def test_bad_input() -> None:

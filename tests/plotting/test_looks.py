@@ -310,3 +310,10 @@ def test_nothing_is_left_in_the_settings():
         CALLS[name]()
         plt.close("all")
     assert dict(mpl.rcParams) == before
+
+
+def test_a_colour_reaches_a_diagrams_legend_and_is_none_of_a_maps():
+    legend = plotting.bifurcation_diagram(made("sweep"), colour="#12AB34").get_legend()
+    assert {to_hex(dot.get_color()) for dot in legend.legend_handles} == {"#12ab34"}
+    with pytest.raises(TypeError, match="the colours of a map say where each start leads"):
+        plotting.basins(made("plane"), color="#12AB34")
