@@ -97,7 +97,7 @@ SETTLE = """(cases) => cases.map(({ x, v, ...oscillator }) => {
   const motion = gearpair.use("settle").settle(cells, x, v, {});
   if (!motion.points.length) return { status: motion.status };
   return { ...motion, multipliers: motion.monodromy && measures.multipliers(motion.monodromy),
-           impact: measures.impactState(motion.low, motion.high) };
+           impact: gearpair.use("verdict").impactState(motion.low, motion.high) };
 })"""
 
 
@@ -216,7 +216,7 @@ def test_spectrum_and_samples(run):
     assert np.abs(np.array(amplitude) - lines.amplitude[:-1]).max() < 1e-13
 
 
-DIAGRAM = """(order) => [...gearpair.use("worker").columns(order)].filter(Boolean)"""
+DIAGRAM = """(order) => [...gearpair.use("branches").columns(order)].filter(Boolean)"""
 
 
 def test_the_diagram_is_a_rising_and_then_a_falling_sweep(run):
@@ -224,9 +224,9 @@ def test_the_diagram_is_a_rising_and_then_a_falling_sweep(run):
     order = {"oscillator": as_json(osc), "parameter": "mesh_frequency", "lower": 0.4, "upper": 0.9, "count": 41}
     columns = run(DIAGRAM, {**order, "x": 1.0, "v": 0.0})
     values = np.linspace(0.4, 0.9, 41)
-    up = gp.sweep(osc, "mesh_frequency", values, x=1.0, v=0.0, max_period=32)
+    up = gp.sweep(osc, "mesh_frequency", values, x=1.0, v=0.0)
     last = {"x": up.x.values[-1, 0], "v": up.v.values[-1, 0]}
-    down = gp.sweep(osc, "mesh_frequency", values[::-1], max_period=32, **last)
+    down = gp.sweep(osc, "mesh_frequency", values[::-1], **last)
     assert [column["falling"] for column in columns] == [False] * 41 + [True] * 41
     for half, result in ((columns[:41], up), (columns[41:], down)):
         np.testing.assert_allclose([column["value"] for column in half], result.mesh_frequency.values, rtol=1e-14)
