@@ -111,9 +111,8 @@ def facts() -> dict[str, Any]:
 
 def _number(slider: Slider) -> dict[str, Any]:
     osc = gp.Oscillator()
-    name, value = START.get(slider.name) or (slider.name, osc.parameter(slider.name))
-    if name == "flight_damping":
-        value = osc.flight_damping  # None: that in contact
+    own: dict[str, tuple[str, float | None]] = {**START, "flight_damping": ("flight_damping", osc.flight_damping)}
+    name, value = own.get(slider.name) or (slider.name, osc.parameter(slider.name))
     low, high = slider.low, slider.high
     return {
         "name": name,

@@ -10,43 +10,10 @@ import pytest
 
 import gearpair as gp
 from tests.support import ROOT
-from tests.support.explorer_pages import opened, write_page
+from tests.support.explorer_pages import EXPLORER, SETTLED, part, shown, state, wait_for_diagram
 
-EXPLORER = "document.getElementById('explorer').explorer"
 IMPACTS = {"single_drive": "single-sided", "double": "double-sided", "none_drive": "no impact"}
 SEE_IT_MOVE = re.compile(r'<a class="see-it-move" href="([^"#]*)#([^"]*)">([^<]*)</a>')
-SETTLED = f"{EXPLORER}?.shown && !{EXPLORER}.pending && !{EXPLORER}.changed"
-
-
-@pytest.fixture
-def explorer(browser, tmp_path):
-    """Opens the explorer at a hash, its motion settled."""
-    path = write_page(tmp_path)
-    with opened(browser) as go:
-
-        def open_at(hash: str = "", **media: str):
-            page = go(path.as_uri() + hash, **media)
-            page.wait_for_function(SETTLED)
-            return page
-
-        yield open_at
-
-
-def part(name: str) -> str:
-    return f"document.querySelector('[data-part={name}]')"
-
-
-def shown(page, name: str) -> str:
-    """A value of the readout."""
-    return page.evaluate(f"document.querySelector('[data-value={name}]').textContent").replace("−", "-")
-
-
-def state(page) -> dict:
-    return page.evaluate(f"{EXPLORER}.state")
-
-
-def wait_for_diagram(page):
-    page.wait_for_function(f"!{EXPLORER}.diagram.busy")
 
 
 @pytest.mark.parametrize(

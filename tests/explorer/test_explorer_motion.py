@@ -10,7 +10,7 @@ from gearpair._flow.cells import build_cells
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.walk import walk
 from gearpair.motion.trajectories import raise_unless_ok
-from tests.support.engines import run_in_chromium, run_in_node
+from tests.support.engines import as_json, run_in_chromium, run_in_node
 from tests.support.oscillators import degenerate_cases, random_case
 from tests.support.reference import plain_coefficients
 
@@ -24,18 +24,6 @@ def run(request):
         return partial(run_in_chromium, request.getfixturevalue("browser"))
     run_in_node("() => 0", None)
     return run_in_node
-
-
-def as_json(osc: gp.Oscillator, x: float = 1.0, v: float = 0.0) -> dict:
-    """What the modules take."""
-    scalars = {name: osc.parameter(name) for name in osc.parameters if name not in ("contact_ratio", "a", "b")}
-    return {
-        **scalars,
-        "edges": [*osc.stiffness.edges, 1.0],
-        "levels": list(osc.stiffness.levels),
-        "x": x,
-        "v": v,
-    }
 
 
 RECORD = """(cases) => cases.map(({ periods, x, v, ...oscillator }) => {

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from tests.explorer.test_explorer_motion import as_json
-from tests.support.engines import run_in_chromium, run_in_node
+from tests.support.engines import as_json, run_in_chromium, run_in_node
 
 N, WATCH = 200, 20_000
 VERDICTS = """({ cases, watch }) => cases.map(({ x, v, ...oscillator }) => {
@@ -39,7 +38,7 @@ MARCH = """(cases) => cases.map(({ x, v, periods, ...oscillator }) => {
 
 @cache
 def addresses() -> list[tuple[gp.Oscillator, float, float]]:
-    """Oscillators and starts where chaos, long transients and coexisting motions are common, as numbers of an address."""
+    """Where chaos, long transients and coexisting motions are common, with the numbers of an address."""
     rng = np.random.default_rng(24)
     drawn = []
     for i in range(N):
@@ -77,7 +76,9 @@ def test_no_verdict_is_refuted_by_a_long_march():
 @pytest.mark.slow
 def test_what_is_called_chaotic_so_far_had_not_settled_by_then():
     """A march without a verdict in it has not come to repeat when the page still says that it does not."""
-    chaotic = [(case, answer) for case, answer in zip(addresses(), verdicts(), strict=True) if answer["status"] == "aperiodic"]
+    chaotic = [
+        (case, answer) for case, answer in zip(addresses(), verdicts(), strict=True) if answer["status"] == "aperiodic"
+    ]
     cases = [{**as_json(*case), "periods": answer["lasted"]} for case, answer in chaotic]
     assert min(run_in_node(MARCH, cases)) > 1e-7
     assert min(answer["lasted"] for _case, answer in chaotic) >= WATCH
