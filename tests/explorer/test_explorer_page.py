@@ -31,7 +31,7 @@ def meaning(page) -> str:
     return page.evaluate(f"{part('meaning')}.textContent")
 
 
-@pytest.mark.parametrize("hash", ["#mesh_frequency=1.09&x=0.5&v=-0.5", "#mesh_frequency=1.219", "#mesh_frequency=0.9"])
+@pytest.mark.parametrize("hash", ["#mesh_frequency=1.09&x=0.5&v=-0.5", "#mesh_frequency=1.219", "#mesh_frequency=1.3"])
 def test_readout_history_spectrum_and_diagram_speak_of_one_motion(explorer, hash):
     page = explorer(hash)
     repeats = page.evaluate(REPEATS)
@@ -118,7 +118,7 @@ def test_without_a_mean_force_the_pair_floats(explorer):
 
 @pytest.mark.parametrize(
     ("hash", "helps"),
-    [("#a=1&b=0.9", False), ("#mesh_frequency=2&damping_ratio=0.001&a=0.5&b=0.5&contact_ratio=1.5&x=50", True)],
+    [("#a=1&b=0.9", False), ("#mesh_frequency=2&damping_ratio=0.03&a=0.5&b=0.5&contact_ratio=1.5&x=50", True)],
 )
 def test_a_nearer_start_is_advised_only_where_one_stays(explorer, hash, helps):
     page = explorer(hash)
@@ -128,7 +128,7 @@ def test_a_nearer_start_is_advised_only_where_one_stays(explorer, hash, helps):
     if helps:
         x, v = map(float, re.search(r"X₀ = (\S+), X₀′ = (\S+) stays", text).groups())
         osc = gp.Oscillator(
-            mesh_frequency=2.0, damping_ratio=0.001, stiffness=gp.StiffnessWave.rectangular(1.5, 0.5, 0.5)
+            mesh_frequency=2.0, damping_ratio=0.03, stiffness=gp.StiffnessWave.rectangular(1.5, 0.5, 0.5)
         )
         assert gp.steady_state(osc, x, v).status != "escaped"
 
@@ -188,7 +188,7 @@ def test_undo_goes_back_step_by_step_and_a_drag_is_one(explorer):
     page = explorer()
     assert page.evaluate(f"{part('undo')}.disabled")
     for i in range(5):
-        page.evaluate(f"{EXPLORER}.change({{ mesh_frequency: {0.8 + 0.01 * i} }})")
+        page.evaluate(f"{EXPLORER}.change({{ mesh_frequency: {0.8 + i / 100:.2f} }})")
     page.evaluate(f"{EXPLORER}.change({{ x: 2 }})")
     seen = []
     while not page.evaluate(f"{part('undo')}.disabled"):

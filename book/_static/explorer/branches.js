@@ -24,10 +24,11 @@ gearpair.define("branches", ["library", "cells", "flow", "settle", "verdict"], f
         const work = settle.settling(cells, motion, SETTINGS);
         const settled = yield* judged(work);
         if (!settled.points.length) motion = { x, v };
-        const column = { place: places++, value, falling: falling === 1, ...seen(settled) };
+        const column = { place: places, value, falling: falling === 1, ...seen(settled) };
         const here = known.get(i) ?? [];
         if (from !== undefined && here.some((other) => same(column, other))) break;
         known.set(i, [...here, column]);
+        places++;
         yield { ...column };
         if (settled.watching) open.push([column, work]);
         motion = { ...motion }; // the work may move its own

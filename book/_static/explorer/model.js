@@ -10,7 +10,7 @@ gearpair.define(
     const SETTINGS = { samples: 1200, watch: 1_000_000 };
     const NOTHING = { frequency: [], amplitude: [] };
     const PASSING = { status: "settling", name: "settling", title: "settling", lines: false };
-    const NEARER = [0.5, 0.2, 0]; // of an escaped start, tried
+    const [NEARER, ASIDE] = [[0.5, 0.2, 0], [0, 1e-6, -1e-6]]; // of an escaped start, tried; all must stay, lest it be by chance
 
     class Model {
       // Take a new gear pair and start; nothing is computed yet.
@@ -79,7 +79,8 @@ gearpair.define(
       nearer() {
         for (const share of NEARER) {
           const [x, v] = [this.state.x, this.state.v].map((value) => Number((share * value).toPrecision(3)));
-          if (settle.settle(this.cells, x, v, { watch: 0 }).status !== "escaped") return { x, v };
+          const stays = (aside) => settle.settle(this.cells, x + aside, v, { watch: 0 }).status !== "escaped";
+          if (ASIDE.every(stays)) return { x, v };
         }
         return null;
       }
