@@ -31,7 +31,7 @@ def meaning(page) -> str:
     return page.evaluate(f"{part('meaning')}.textContent")
 
 
-@pytest.mark.parametrize("hash", ["#mesh_frequency=1.09&x=0.5&v=-0.5", "#mesh_frequency=1.219", "#mesh_frequency=1.3"])
+@pytest.mark.parametrize("hash", ["#mesh_frequency=1.09&x=0.5&v=-0.5", "#mesh_frequency=1.219", "#mesh_frequency=1.8"])
 def test_readout_history_spectrum_and_diagram_speak_of_one_motion(explorer, hash):
     page = explorer(hash)
     repeats = page.evaluate(REPEATS)

@@ -1,5 +1,5 @@
 // The sliders: each with a field beside it for exact values.
-gearpair.define("controls", ["state"], function ({ NUMBERS, readValue, complaint }) {
+gearpair.define("controls", ["state"], function ({ NUMBERS, CHOICES, readValue, complaint }) {
   const GROUPS = [
     ["Gear pair", "pair", ["mesh_frequency", "damping_ratio", "mean_force", "error_amplitude", "error_phase"]],
     ["Mesh stiffness", "stiffness", ["contact_ratio", "a", "b"]],
@@ -47,13 +47,21 @@ gearpair.define("controls", ["state"], function ({ NUMBERS, readValue, complaint
     return (state) => show(form, fields, state);
   }
 
+  const choicesOf = (name) => CHOICES.find((entry) => entry.name === name).choices;
+
+  // Fill a select with the parameters that a diagram may be over.
+  function offer(select) {
+    const options = choicesOf("diagram").map((name) => new Option(NUMBERS.find((entry) => entry.name === name).label.toLowerCase(), name));
+    select.replaceChildren(...options);
+  }
+
   function reading(onChange) {
     const choice = document.createElement("div");
     choice.className = "gp-choice";
     choice.setAttribute("role", "radiogroup");
     choice.setAttribute("aria-label", "Reading of the stiffness wave");
     const label = (value) => `<label><input type="radio" name="reading" value="${value}"><span>${value}</span></label>`;
-    choice.innerHTML = `<b aria-hidden="true">Reading</b>${["printed", "swapped"].map(label).join("")}`;
+    choice.innerHTML = `<b aria-hidden="true">Reading</b>${choicesOf("reading").map(label).join("")}`;
     choice.addEventListener("change", ({ target }) => onChange({ reading: target.value }));
     return choice;
   }
@@ -87,5 +95,5 @@ gearpair.define("controls", ["state"], function ({ NUMBERS, readValue, complaint
     for (const radio of form.querySelectorAll("[name=reading]")) radio.checked = radio.value === state.reading;
   }
 
-  return { build, fill };
+  return { build, fill, offer };
 });

@@ -4,6 +4,7 @@ gearpair.define(
   ["state", "follower", "player", "controls", "readout", "plot", "teeth", "history", "phase", "spectrum_view", "diagram", "verdict"],
   function (states, follower, player, controls, readout, plotting, teeth, history, phase, spectra, diagrams, verdict) {
     const ADDRESS = 300; // milliseconds without a change before the address is written
+    const SLOW = 0.03; // seconds
     const STEP = 800; // between two changes that are undone one by one
     const MOST_STEPS = 200; // that can be undone
 
@@ -33,6 +34,7 @@ gearpair.define(
       }
 
       listen() {
+        controls.offer(this.find("parameter"));
         this.find("play").addEventListener("click", () => this.play(!this.playing));
         this.find("speed").addEventListener("input", ({ target }) => this.setSpeed(target));
         this.find("reset").addEventListener("click", () => this.change(states.DEFAULTS));
@@ -182,7 +184,9 @@ gearpair.define(
           this.showControls(this.state);
           this.showDiagram();
         }
-        if (this.fresh) this.show();
+        // Where frames are slow, every other one shows a new motion, and those between keep the sliders fluid.
+        this.passed = Boolean(this.fresh) && elapsed > SLOW && !this.passed;
+        if (this.fresh && !this.passed) this.show();
         if (this.visible) this.animate(elapsed);
         requestAnimationFrame((next) => this.frame(next));
       }
