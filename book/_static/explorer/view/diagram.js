@@ -134,10 +134,10 @@ gearpair.define("diagram", ["library", "plot", "branches", "verdict"], function 
 
     // The legend: the motions in the diagram and the one that is marked; of chaos also for how long it was watched.
     describe() {
-      const all = this.marked && this.marked.name !== "settling" ? [...this.columns, { ...this.marked, motion: this.marked.name }] : this.columns;
-      const present = new Set(all.map(({ motion }) => colourName(motion)));
+      const present = new Set(this.columns.map(({ motion }) => colourName(motion)));
+      if (this.marked && this.marked.name !== "settling") present.add(colourName(this.marked.name));
       const names = library.motions.filter((name) => present.has(name));
-      const least = Math.min(...all.filter(({ motion }) => motion === "chaos").map(({ lasted }) => lasted));
+      const least = Math.min(...this.columns.filter(({ motion }) => motion === "chaos").map(({ lasted }) => lasted));
       const key = [...names, least].join();
       if (key === this.names) return;
       this.names = key;
@@ -146,7 +146,7 @@ gearpair.define("diagram", ["library", "plot", "branches", "verdict"], function 
           const item = document.createElement("li");
           item.dataset.motion = name;
           item.style.setProperty("--dot", `var(--gp-${name.replaceAll(" ", "-")})`);
-          item.textContent = name === "chaos" ? `chaos, watched for ${grouped(Math.floor(least / 100) * 100)} mesh periods or more` : name;
+          item.textContent = name === "chaos" && least < Infinity ? `chaos, watched for ${grouped(Math.floor(least / 100) * 100)} mesh periods or more` : name;
           return item;
         }),
       );
