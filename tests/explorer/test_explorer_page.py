@@ -255,3 +255,16 @@ def test_a_motion_that_escapes_has_its_mark_in_the_diagram(explorer):
       return dots.getContext("2d").getImageData(plot.x(value) * ratio, (plot.box.top + 5) * ratio, 1, 1).data[3];
     }})({escaped[0]})""")
     assert ink > 0
+
+
+def test_a_picture_that_comes_into_sight_shows_the_present_motion(explorer):
+    page = explorer()
+    page.set_viewport_size({"width": 360, "height": 400})
+    page.wait_for_function(f"{EXPLORER}.hidden.has('spectrum')")
+    pixels = f"{part('spectrum')}.toDataURL()"
+    before = page.evaluate(pixels)
+    page.evaluate(f"{EXPLORER}.change({{ mesh_frequency: 1.8 }})")
+    page.wait_for_function(f"{SETTLED} && {EXPLORER}.shown.period === 1")
+    page.evaluate(f"{part('spectrum')}.scrollIntoView()")
+    page.wait_for_function(f"!{EXPLORER}.hidden.has('spectrum')")
+    assert page.evaluate(pixels) != before

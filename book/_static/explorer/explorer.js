@@ -47,12 +47,13 @@ gearpair.define(
         new ResizeObserver(() => this.redraw()).observe(this.root);
         new MutationObserver(() => this.redraw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
         window.matchMedia("print").addEventListener("change", () => this.print());
-        const seen = new Map();
+        this.hidden = new Set(); // pictures scrolled away: they are drawn when they come into sight
         const watcher = new IntersectionObserver((entries) => {
-          for (const { target, isIntersecting } of entries) seen.set(target, isIntersecting);
-          this.visible = [...seen.values()].some(Boolean);
+          for (const { target, isIntersecting } of entries) this.hidden[isIntersecting ? "delete" : "add"](target.dataset.part);
+          this.visible = ["teeth", "history", "phase"].some((name) => !this.hidden.has(name));
+          if (this.shown && entries.some(({ isIntersecting }) => isIntersecting)) this.draw();
         });
-        for (const name of ["teeth", "history", "phase"]) watcher.observe(this.find(name));
+        for (const name of ["teeth", "history", "phase", "spectrum"]) watcher.observe(this.find(name));
         this.visible = true;
         this.play(this.playing);
         this.setSpeed(this.find("speed"));
@@ -153,11 +154,11 @@ gearpair.define(
         note.textContent = plotting.sign(text);
       }
 
-      redraw() {
+      redraw(paper = false) {
         plotting.forgetSizes();
         this.theme = plotting.readTheme(this.root);
         if (!this.shown) return;
-        this.draw();
+        this.draw(paper);
         this.diagram.draw(this.theme);
         this.still = false;
       }
@@ -170,7 +171,7 @@ gearpair.define(
         const [words, address] = this.find("printed").children;
         words.innerHTML = `${numbers.join(", ")}, reading: ${this.state.reading}.`.replaceAll("= -", "= −");
         address.textContent = location.href;
-        this.redraw();
+        this.redraw(true);
         this.animate(0);
       }
 
@@ -236,7 +237,8 @@ gearpair.define(
         overlay.setAttribute("aria-valuetext", `${entry.label} ${value}`);
       }
 
-      draw() {
+      // Draw the pictures in sight, on `paper` all.
+      draw(paper = false) {
         const { shown, theme } = this;
         const { state } = shown;
         const escaped = shown.name === "escaped"; // its colour is too faint for a line
@@ -245,9 +247,11 @@ gearpair.define(
         const { points, name, lasted } = shown;
         this.diagram.mark({ value: state[this.state.diagram], points, colour, name, lasted });
         const start = { x: state.x, v: state.v };
-        this.historyPlot = history.drawHistory(this.find("history"), theme, { ...shown, colour });
-        this.phasePlot = phase.drawPhase(this.find("phase"), theme, { ...shown, start, colour });
-        spectra.drawSpectrum(this.find("spectrum"), theme, { ...shown, colour });
+        const all = paper || !this.historyPlot;
+        const draws = (name) => all || !this.hidden.has(name);
+        if (draws("history")) this.historyPlot = history.drawHistory(this.find("history"), theme, { ...shown, colour });
+        if (draws("phase")) this.phasePlot = phase.drawPhase(this.find("phase"), theme, { ...shown, start, colour });
+        if (draws("spectrum")) spectra.drawSpectrum(this.find("spectrum"), theme, { ...shown, colour });
         this.still = false;
       }
 
