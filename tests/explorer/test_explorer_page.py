@@ -69,7 +69,11 @@ def test_a_transient_is_chaotic_so_far_and_then_settles(explorer):
 
 def test_the_count_of_periods_watched_grows_and_is_not_read_out_again(explorer):
     page = explorer("#mesh_frequency=1.219")
+    page.wait_for_function(f"{part('live')}.textContent !== ''")
+    read = page.evaluate(f"{part('live')}.textContent")
     page.wait_for_function(f"!{EXPLORER}.shown.watching")
+    page.evaluate("new Promise((done) => setTimeout(done, 1000))")
+    assert page.evaluate(f"{part('live')}.textContent") == read
     count = int(re.sub(r"\D", "", shown(page, "watched")))
     assert count > 1_000_000
     assert "may still settle" in meaning(page)

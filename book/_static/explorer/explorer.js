@@ -217,7 +217,7 @@ gearpair.define(
           this.diagram.draws(this.theme);
           if (fresh.status === "aperiodic" || fresh.status === "unsettled") this.follower.postMessage({ id: fresh.id });
         } else Object.assign(fresh, { recorded: shown.recorded, following: shown.following }); // watched for longer
-        this.showReadout(fresh);
+        this.showReadout(fresh, !same);
         this.find("tells").textContent = spectra.tells(fresh);
         if (fresh.status === "periodic") {
           this.diagram.follow({ value: fresh.state[this.state.diagram], points: fresh.points });
