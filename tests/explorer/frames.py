@@ -1,9 +1,9 @@
 """How smoothly the explorer answers while a slider is dragged; by hand, since it depends on the clock.
 
-    python -m tests.explorer.frames [page]
+    python -m tests.explorer.frames [slowdown] [page]
 
-Drags three sliders over their whole range in Chromium without a window, one mouse event a frame, and prints frames per
-second, the longest frame, and how many of the frames showed a new motion.
+Drags three sliders over their whole range in Chromium without a window, one mouse event a frame, its processor slowed
+down so many times (1), and prints frames per second, the longest frame, and how many of the frames showed a new motion.
 """
 
 import sys
@@ -44,11 +44,13 @@ DRAG = """
 
 def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
-        address = sys.argv[1] if len(sys.argv) > 1 else write_page(Path(folder)).as_uri()
+        slowdown = float(sys.argv[1]) if len(sys.argv) > 1 else 1.0
+        address = sys.argv[2] if len(sys.argv) > 2 else write_page(Path(folder)).as_uri()
         with chromium() as browser, opened(browser) as go:
             page = go(address)
             page.wait_for_function("document.getElementById('explorer').explorer?.shown")
             page.evaluate(f"() => {{ {WATCH} }}")
+            page.context.new_cdp_session(page).send("Emulation.setCPUThrottlingRate", {"rate": slowdown})
             for name in ("mesh_frequency", "damping_ratio", "error_amplitude"):
                 seen = page.evaluate(f"({DRAG})({name!r}, 300)")
                 print(f"{name}: {seen['fps']:.1f} frames/s, longest {seen['longest']:.0f} ms, "

@@ -19,7 +19,7 @@ def test_the_small_pairs_move_and_rest(tmp_path, browser):
 
 
 def test_colours_are_the_book_s():
-    css = (MODULES / "motion.css").read_text(encoding="utf-8")
+    css = (MODULES / "colours.css").read_text(encoding="utf-8")
     for name, colour in MOTION_COLOURS.items():
         assert f"--gp-{name.replace(' ', '-')}: {colour.lower()};" in css
 

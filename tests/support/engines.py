@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+import gearpair as gp
 from tests.support.explorer_pages import STATIC, opened
 
 MODULES = STATIC / "explorer"
@@ -44,3 +45,15 @@ def run_in_chromium(browser: Any, source: str, data: Any) -> Any:
         page.write_text(f'<!DOCTYPE html><title>x</title><script src="{load}" data-part="motion" defer></script>')
         with opened(browser) as go:
             return json.loads(go(page.as_uri()).evaluate(f"JSON.stringify(({source})({json.dumps(data)}))"))
+
+
+def as_json(osc: gp.Oscillator, x: float = 1.0, v: float = 0.0) -> dict[str, Any]:
+    """An oscillator and a start as the modules take them."""
+    scalars = {name: osc.parameter(name) for name in osc.parameters if name not in ("contact_ratio", "a", "b")}
+    return {
+        **scalars,
+        "edges": [*osc.stiffness.edges, 1.0],
+        "levels": list(osc.stiffness.levels),
+        "x": x,
+        "v": v,
+    }

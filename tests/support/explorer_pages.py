@@ -9,6 +9,8 @@ from typing import Any
 from tests.support import ROOT
 
 STATIC = ROOT / "book" / "_static"
+EXPLORER = "document.getElementById('explorer').explorer"
+SETTLED = f"{EXPLORER}?.shown && !{EXPLORER}.pending && !{EXPLORER}.changed"
 
 
 @contextmanager
@@ -55,3 +57,25 @@ def write_pairs_page(folder: Path) -> Path:
     body = (ROOT / "book" / "moving_pairs.html").read_text(encoding="utf-8").replace("../_static", STATIC.as_uri())
     page.write_text(f'<!DOCTYPE html><html lang="en"><title>Pairs</title><body>{body}</body></html>', encoding="utf-8")
     return page
+
+
+def part(name: str) -> str:
+    """An element of the explorer, as JavaScript."""
+    return f"document.querySelector('[data-part={name}]')"
+
+
+def shown(page: Any, name: str) -> str:
+    """A value of the readout."""
+    text: str = page.evaluate(f"document.querySelector('[data-value={name}]').textContent")
+    return text.replace("−", "-")
+
+
+def state(page: Any) -> dict[str, Any]:
+    """The gear pair and the start that the page's controls stand for."""
+    found: dict[str, Any] = page.evaluate(f"{EXPLORER}.state")
+    return found
+
+
+def wait_for_diagram(page: Any) -> None:
+    """Wait until the diagram is complete, its chaos watched."""
+    page.wait_for_function(f"!{EXPLORER}.diagram.busy")

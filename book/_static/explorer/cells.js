@@ -2,14 +2,14 @@
 //
 // On a cell spent in one region (coast-side contact -1, free flight 0, drive-side contact 1) the state at its end is
 // an affine function of the state at its start. The cells of gearpair/_flow/cells.py for an error of one harmonic.
-gearpair.define("cells", ["closed_form"], function (closedForm) {
-  const { DEGREE, TERMS, REACH, fastestRate, fillBasis, fourthDerivativeBound } = closedForm;
+gearpair.define("cells", ["library", "closed_form"], function ({ tolerances }, closedForm) {
+  const { DEGREE, TERMS, REACH, fastestRate, fillBasis, fourthDerivativeBound, sineCosine } = closedForm;
 
   // Columns of `maps`: x1 = XX x + XV v + X0, v1 = VX x + VV v + V0, and the spread
   // SX |x - s| + SV |v| + S0 >= max |w^4 X''''| / 384 over the cell.
   const [XX, XV, X0, VX, VV, V0, SX, SV, S0] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
   const COLUMNS = 9;
-  const ESCAPE_RADIUS = 1e6;
+  const { ESCAPE_RADIUS } = tolerances;
 
   // The article's rectangle: 1 + a on the first part of the mesh period, 1 - b on the rest.
   function rectangle({ contact_ratio, a, b, reading }) {
@@ -45,6 +45,7 @@ gearpair.define("cells", ["closed_form"], function (closedForm) {
       maps: new Float64Array(size * 3 * COLUMNS),
       bases: [], // for level i free flight at 2 i, contact at 2 i + 1; 5 rows of TERMS each
       fourths: [], // bounds of their fourth derivatives
+      growth, // of a disturbance in a mesh period, while the teeth stay in contact
       escapeRadius: growth > 1 ? ESCAPE_RADIUS : Infinity,
     };
     const amplitude = error_amplitude * mesh_frequency * mesh_frequency;
@@ -62,8 +63,9 @@ gearpair.define("cells", ["closed_form"], function (closedForm) {
         const theta = 2 * Math.PI * (edges[i] + m * span) + error_phase;
         cells.width[j] = width;
         cells.start[j] = edges[i] + m * span;
-        cells.sine[j] = amplitude * Math.sin(theta);
-        cells.cosine[j] = amplitude * Math.cos(theta);
+        const [sine, cosine] = sineCosine(theta);
+        cells.sine[j] = amplitude * sine;
+        cells.cosine[j] = amplitude * cosine;
         cells.level[j] = i;
         for (let region = -1; region <= 1; region++) fillMap(cells, j, region);
       }

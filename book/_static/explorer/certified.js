@@ -3,11 +3,11 @@
 // The motion on the rest of a cell is a power series p(t), t from 0 to `end`. Three certificates, cheapest first: its
 // Bezier hull lies inside; it is monotone, so it leaves where its end value says; or certified steps, each the first
 // positive root of d + u h + m h^2 / 2 with m <= p''. Those of gearpair/_flow/event_search.py, where they are proved.
-gearpair.define("certified", ["closed_form"], function (closedForm) {
+gearpair.define("certified", ["library", "closed_form"], function ({ tolerances }, closedForm) {
   const { TERMS, value, evaluate, evaluateJerk, fourthDerivativeBound } = closedForm;
   const MONOTONE = ((384 * Math.sqrt(3)) / 216 / 3) * 1.01;
   const ROUNDING = 2 ** -52;
-  const MAX_STEPS = 400;
+  const { MAX_STEPS } = tolerances;
   const [INSIDE, LEFT, UNDECIDED] = [0, 1, 2];
 
   // Where `firstExit` found the motion: t, the boundary it left through, its slope there.
@@ -51,7 +51,7 @@ gearpair.define("certified", ["closed_form"], function (closedForm) {
 
   // x1, v1 are value and slope (per t) at `end`; fourth >= max |p''''|. After LEFT, `exit` tells where.
   function firstExit(series, region, end, x1, v1, fourth) {
-    const spread = (fourth * end ** 4) / 384;
+    const spread = (fourth * end * end * end * end) / 384;
     const b0 = series[0];
     const b3 = x1;
     const b1 = b0 + (series[1] * end) / 3;

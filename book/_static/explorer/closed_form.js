@@ -5,10 +5,9 @@
 // and its solution is linear in (X - s, X', F_m, A sin theta, A cos theta) at h = 0. No rate turns by more than
 // REACH over a cell, so the series has converged to below rounding at DEGREE: one formula for resonance, critical
 // damping and no damping alike. As in gearpair/_flow/closed_form.py, less what higher harmonics add there.
-gearpair.define("closed_form", [], function () {
-  const DEGREE = 15;
+gearpair.define("closed_form", ["library"], function ({ tolerances }) {
+  const { DEGREE, REACH } = tolerances;
   const TERMS = DEGREE + 1;
-  const REACH = 0.6;
   const SINE_SIGNS = [1, 0, -1, 0];
   const COSINE_SIGNS = [0, 1, 0, -1];
 
@@ -82,5 +81,26 @@ gearpair.define("closed_form", [], function () {
     return bound;
   }
 
-  return { DEGREE, TERMS, REACH, value, fastestRate, fillBasis, expand, evaluate, evaluateJerk, fourthDerivativeBound };
+  // Sine and cosine by the kernels of Sun's fdlibm, for arguments of moderate size: { sine, cosine }. The engines' own
+  // differ in the last digit, and so, in the end, would a chaotic motion that a link is to bring back.
+  const [HALF_PI, HALF_PI_REST] = [1.57079632673412561417, 6.07710050650619224932e-11];
+  const S = [-1.66666666666666324348e-1, 8.33333333332248946124e-3, -1.98412698298579493134e-4, 2.75573137070700676789e-6, -2.50507602534068634195e-8, 1.58969099521155010221e-10];
+  const C = [4.16666666666666019037e-2, -1.38888888888741095749e-3, 2.48015872894767294178e-5, -2.75573143513906633035e-7, 2.08757232129817482790e-9, -1.13596475577881948265e-11];
+
+  function sineCosine(angle) {
+    const n = Math.round(angle / (HALF_PI + HALF_PI_REST));
+    const r = angle - n * HALF_PI;
+    const w = n * HALF_PI_REST;
+    const x = r - w;
+    const y = r - x - w;
+    const z = x * x;
+    const tail = S[1] + z * (S[2] + z * (S[3] + z * (S[4] + z * S[5])));
+    const sine = x - (z * (0.5 * y - z * x * tail) - y - z * x * S[0]);
+    const cap = z * (C[0] + z * (C[1] + z * (C[2] + z * (C[3] + z * (C[4] + z * C[5])))));
+    const most = 1 - 0.5 * z;
+    const cosine = most + (1 - most - 0.5 * z + (z * cap - x * y));
+    return [[sine, cosine], [cosine, -sine], [-sine, -cosine], [-cosine, sine]][((n % 4) + 4) % 4];
+  }
+
+  return { DEGREE, TERMS, REACH, value, fastestRate, fillBasis, expand, evaluate, evaluateJerk, fourthDerivativeBound, sineCosine };
 });

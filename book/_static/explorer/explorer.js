@@ -1,17 +1,21 @@
 // The explorer page: one state, everything drawn from it.
 gearpair.define(
   "explorer",
-  ["state", "model", "player", "controls", "readout", "plot", "teeth", "history", "phase", "spectrum_view", "diagram"],
-  function (states, models, player, controls, readout, plotting, teeth, history, phase, spectra, diagrams) {
-    const BUDGET = 9; // milliseconds a frame for a motion to settle
-    const PASSING = 150; // between two pictures of a motion that has not settled
-    const ADDRESS = 300; // without a change before the address is written
+  ["state", "follower", "player", "controls", "readout", "plot", "teeth", "history", "phase", "spectrum_view", "diagram", "verdict"],
+  function (states, follower, player, controls, readout, plotting, teeth, history, phase, spectra, diagrams, verdict) {
+    const ADDRESS = 300; // milliseconds without a change before the address is written
+    const SLOW = 0.03; // seconds
+    const STEP = 800; // between two changes that are undone one by one
+    const MOST_STEPS = 200; // that can be undone
 
     class Explorer {
       constructor(root) {
         this.find = (name) => root.querySelector(`[data-part="${name}"]`);
         this.root = root;
-        this.model = new models.Model();
+        this.order = 0;
+        this.past = []; // states to go back to
+        this.follower = follower.start();
+        this.follower.onmessage = ({ data }) => this.receive(data);
         this.playing = !player.prefersStill();
         this.time = 0;
         this.showControls = controls.build(this.find("controls"), (changes) => this.change(changes), (text) => this.say(text));
@@ -30,15 +34,27 @@ gearpair.define(
       }
 
       listen() {
+        controls.offer(this.find("parameter"));
         this.find("play").addEventListener("click", () => this.play(!this.playing));
         this.find("speed").addEventListener("input", ({ target }) => this.setSpeed(target));
         this.find("reset").addEventListener("click", () => this.change(states.DEFAULTS));
+        this.find("undo").addEventListener("click", () => this.undo());
         this.find("link").addEventListener("click", () => this.copyLink());
         this.find("parameter").addEventListener("change", ({ target }) => this.change({ diagram: target.value }));
         this.find("phase").addEventListener("click", ({ offsetX, offsetY }) => this.pickStart(offsetX, offsetY));
         window.addEventListener("hashchange", () => this.readAddress());
+        window.addEventListener("beforeprint", () => this.print());
         new ResizeObserver(() => this.redraw()).observe(this.root);
         new MutationObserver(() => this.redraw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+        window.matchMedia("print").addEventListener("change", () => this.print());
+        this.hidden = new Set(); // pictures scrolled away: they are drawn when they come into sight
+        const watcher = new IntersectionObserver((entries) => {
+          for (const { target, isIntersecting } of entries) this.hidden[isIntersecting ? "delete" : "add"](target.dataset.part);
+          this.visible = ["teeth", "history", "phase"].some((name) => !this.hidden.has(name));
+          if (this.shown && entries.some(({ isIntersecting }) => isIntersecting)) this.draw();
+        });
+        for (const name of ["teeth", "history", "phase", "spectrum"]) watcher.observe(this.find(name));
+        this.visible = true;
         this.play(this.playing);
         this.setSpeed(this.find("speed"));
       }
@@ -58,11 +74,34 @@ gearpair.define(
       }
 
       change(changes, keepComplaint = false) {
+        if (this.state) this.remember(changes);
         this.state = { ...this.state, ...changes };
         if (!keepComplaint) this.say("");
         this.changed = true;
+        this.pending = true;
+        this.find("undo").disabled = this.past.length === 0;
         clearTimeout(this.addressTimer);
         this.addressTimer = setTimeout(() => this.writeAddress(), ADDRESS);
+      }
+
+      // Keep the state for `undo`; of a slider that is dragged only that before the drag.
+      remember(changes) {
+        const names = Object.keys(changes).join();
+        const now = performance.now();
+        const goesOn = names === this.lastNames && now - this.lastChange < STEP;
+        const differs = Object.entries(changes).some(([name, value]) => this.state[name] !== value);
+        if (differs && !goesOn) this.past = [...this.past, this.state].slice(-MOST_STEPS);
+        [this.lastNames, this.lastChange] = [names, now];
+      }
+
+      undo() {
+        const before = this.past.pop();
+        if (!before) return;
+        const past = this.past;
+        this.change(before);
+        this.past = past;
+        this.lastNames = "";
+        this.find("undo").disabled = past.length === 0;
       }
 
       writeAddress() {
@@ -85,15 +124,14 @@ gearpair.define(
       }
 
       pickStart(px, py) {
+        if (!this.phasePlot?.within(px, py)) return; // beside the axes
         const { x, y } = this.phasePlot.data(px, py);
         this.change({ x: Number(x.toFixed(3)), v: Number(y.toFixed(3)) });
       }
 
       play(playing) {
         this.playing = playing;
-        const button = this.find("play");
-        button.textContent = playing ? "Pause" : "Play";
-        button.setAttribute("aria-pressed", String(playing));
+        this.find("play").textContent = playing ? "Pause" : "Play";
       }
 
       setSpeed(slider) {
@@ -109,18 +147,32 @@ gearpair.define(
           return;
         }
         const { column, point } = cursor;
-        const text = `${Number(column.value.toPrecision(4))}, ${column.motion}, X = ${point.x.toFixed(2)}`;
+        const what = column.motion === "chaos" ? `chaotic for ${verdict.grouped(column.lasted)} mesh periods` : column.motion;
+        const text = `${Number(column.value.toPrecision(4))}, ${what}, X = ${point.x.toFixed(2)}`;
         this.find("diagram").setAttribute("aria-valuenow", String(column.value));
         this.find("diagram").setAttribute("aria-valuetext", text);
         note.textContent = plotting.sign(text);
       }
 
-      redraw() {
+      redraw(paper = false) {
         plotting.forgetSizes();
         this.theme = plotting.readTheme(this.root);
         if (!this.shown) return;
-        this.draw();
+        this.draw(paper);
         this.diagram.draw(this.theme);
+        this.still = false;
+      }
+
+      // On paper: the pictures in the colours of paper, the parameters and the address in words.
+      print() {
+        this.writeAddress();
+        const value = (entry) => this.state[entry.name] ?? "as in contact";
+        const numbers = states.NUMBERS.map((entry) => `${entry.label.toLowerCase()} ${entry.symbol} = ${value(entry)}`);
+        const [words, address] = this.find("printed").children;
+        words.innerHTML = `${numbers.join(", ")}, reading: ${this.state.reading}.`.replaceAll("= -", "= −");
+        address.textContent = location.href;
+        this.redraw(true);
+        this.animate(0);
       }
 
       frame(now) {
@@ -128,31 +180,49 @@ gearpair.define(
         this.last = now;
         if (this.changed) {
           this.changed = false;
-          this.pending = true;
-          this.model.reset(this.state);
-          this.drawnAt = -Infinity;
+          this.order++;
+          this.follower.postMessage({ id: this.order, state: this.state });
           this.showControls(this.state);
           this.showDiagram();
         }
-        if (this.pending) this.settle(now);
-        this.animate(elapsed);
+        // Where frames are slow, every other one shows a new motion, and those between keep the sliders fluid.
+        this.passed = Boolean(this.fresh) && elapsed > SLOW && !this.passed;
+        if (this.fresh && !this.passed) this.show();
+        if (this.visible) this.animate(elapsed);
         requestAnimationFrame((next) => this.frame(next));
       }
 
-      // Go on with the motion; show it when it has settled, and now and then on its way.
-      settle(now) {
-        const ready = this.model.advance(BUDGET);
-        this.pending = !ready;
-        if (!ready && now - this.drawnAt < PASSING) return;
-        this.drawnAt = now;
-        this.shown = this.model.describe();
-        this.theme ??= plotting.readTheme(this.root);
-        this.draw();
-        if (!this.diagram.plot) this.diagram.draw(this.theme);
-        this.showReadout(this.shown);
-        if (this.shown.status === "periodic") {
-          this.diagram.follow({ value: this.state[this.state.diagram], points: this.shown.points });
+      // From the worker: a motion, how long it has been watched by now, or its next stretch.
+      receive({ id, shown, lasted, recorded }) {
+        if (shown) this.fresh = { ...shown, id };
+        const present = this.fresh ?? this.shown;
+        if (id !== present?.id) return;
+        if (recorded) present.following = recorded;
+        if (lasted) {
+          present.lasted = lasted;
+          if (present === this.shown) this.showReadout(present, false);
         }
+      }
+
+      // Everything on the page speaks of one motion, the last that the worker has told of.
+      show() {
+        const { fresh, shown } = this;
+        const same = shown?.id === fresh.id && shown.status === fresh.status && fresh.points[0]?.x === shown.points[0]?.x;
+        this.fresh = null;
+        this.shown = fresh;
+        this.pending = fresh.id !== this.order || fresh.status === "settling";
+        this.theme ??= plotting.readTheme(this.root);
+        if (!same) {
+          this.draw();
+          this.diagram.draws(this.theme);
+          if (fresh.status === "aperiodic" || fresh.status === "unsettled") this.follower.postMessage({ id: fresh.id });
+        } else Object.assign(fresh, { recorded: shown.recorded, following: shown.following }); // watched for longer
+        this.showReadout(fresh, !same);
+        this.find("tells").textContent = spectra.tells(fresh);
+        if (fresh.status === "periodic") {
+          this.diagram.follow({ value: fresh.state[this.state.diagram], points: fresh.points });
+        }
+        this.root.dispatchEvent(new CustomEvent("motionshown", { detail: fresh }));
       }
 
       showDiagram() {
@@ -167,34 +237,40 @@ gearpair.define(
         overlay.setAttribute("aria-valuetext", `${entry.label} ${value}`);
       }
 
-      draw() {
-        const { shown, theme, state } = this;
+      // Draw the pictures in sight, on `paper` all.
+      draw(paper = false) {
+        const { shown, theme } = this;
+        const { state } = shown;
         const escaped = shown.name === "escaped"; // its colour is too faint for a line
-        const colour = escaped ? theme.muted : theme.motion[plotting.colourName(shown.name)];
+        const colour = escaped ? theme.muted : theme.motion[verdict.colourName(shown.name)];
         if (colour !== this.colour) this.root.style.setProperty("--motion", (this.colour = colour));
-        this.diagram.mark({ value: state[state.diagram], points: shown.points, colour, name: shown.name });
+        const { points, name, lasted } = shown;
+        this.diagram.mark({ value: state[this.state.diagram], points, colour, name, lasted });
         const start = { x: state.x, v: state.v };
-        this.historyPlot = history.drawHistory(this.find("history"), theme, { ...shown, colour });
-        this.phasePlot = phase.drawPhase(this.find("phase"), theme, { ...shown, start, colour });
-        spectra.drawSpectrum(this.find("spectrum"), theme, { ...shown, colour });
+        const all = paper || !this.historyPlot;
+        const draws = (name) => all || !this.hidden.has(name);
+        if (draws("history")) this.historyPlot = history.drawHistory(this.find("history"), theme, { ...shown, colour });
+        if (draws("phase")) this.phasePlot = phase.drawPhase(this.find("phase"), theme, { ...shown, start, colour });
+        if (draws("spectrum")) spectra.drawSpectrum(this.find("spectrum"), theme, { ...shown, colour });
         this.still = false;
       }
 
       // The teeth, and the dots that run along the time history and the phase portrait.
       animate(elapsed) {
         if (!this.shown || (!this.playing && this.still)) return;
-        const { recorded } = this.shown;
+        const { recorded, following } = this.shown;
         this.still = !this.playing;
         if (this.playing) this.time += elapsed * this.speed;
         if (this.time >= recorded.periods) {
           this.time %= recorded.periods;
-          if (this.shown.status === "aperiodic" || this.shown.status === "unsettled") {
-            this.shown.recorded = this.model.next();
+          if (following) {
+            Object.assign(this.shown, { recorded: following, following: null });
             this.draw();
+            this.follower.postMessage({ id: this.shown.id });
           }
         }
         const now = player.at(this.shown.recorded, this.time, this.speed);
-        const mean = Math.abs(this.state.mean_force) || 1;
+        const mean = Math.abs(this.shown.state.mean_force) || 1;
         teeth.drawTeeth(this.find("teeth"), this.theme, { ...now, force: now.force / mean });
         this.moveDot("history-dot", this.historyPlot.x(this.time), this.historyPlot.y(now.x));
         this.moveDot("phase-dot", this.phasePlot.x(now.x), this.phasePlot.y(now.v));

@@ -3,12 +3,12 @@
 // A motion is { x, v, region } at the start of a mesh period; `walk` moves it on, and shows a visitor what it passes.
 // The loop of gearpair/_flow/walk.py with the segments of segment.py, for an error of one harmonic: no blocks of cells.
 // What is gathered there by accumulators is gathered here by visitors.
-gearpair.define("flow", ["closed_form", "cells", "certified"], function (closedForm, tables, certified) {
-  const { TERMS, value, evaluate, expand } = closedForm;
+gearpair.define("flow", ["library", "closed_form", "cells", "certified"], function (library, closedForm, tables, certified) {
+  const { TERMS, value, evaluate, expand, sineCosine } = closedForm;
   const { XX, XV, X0, VX, VV, V0, SX, SV, S0, COLUMNS } = tables;
   const { INSIDE, UNDECIDED, exit, regionAt, firstExit } = certified;
   const [OK, ESCAPED, TOO_MANY_EVENTS, EVENT_UNDECIDED] = [0, 1, 2, 3];
-  const MAX_EVENTS_PER_PERIOD = 10000;
+  const { MAX_EVENTS_PER_PERIOD } = library.tolerances;
 
   const series = new Float64Array(TERMS); // of the segment under way
   const ahead = new Float64Array(4); // after `followCell`: X and X' at the cell's end, lower and upper bound of X
@@ -47,7 +47,7 @@ gearpair.define("flow", ["closed_form", "cells", "certified"], function (closedF
     let cosine = cells.cosine[j];
     if (t > 0) {
       const turn = (t * width * 2 * Math.PI) / cells.period;
-      const [c, s] = [Math.cos(turn), Math.sin(turn)];
+      const [s, c] = sineCosine(turn);
       [sine, cosine] = [sine * c + cosine * s, cosine * c - sine * s];
     }
     expand(cells.bases[at], region, x, v, cells.force, sine, cosine, series);

@@ -2,13 +2,14 @@
 // <script src=".../explorer/load.js" data-part="explorer" defer></script>
 (function (scope) {
   "use strict";
-  const MOTION = ["modules", "closed_form", "cells", "certified", "flow", "tangent", "observe", "settle", "measures"];
-  const TEETH = ["state", "model", "player", "view/plot", "view/teeth"];
-  const PICTURES = ["view/history", "view/phase", "view/spectrum", "worker", "view/diagram", "controls", "readout"];
+  const MOTION = ["modules", "library", "closed_form", "cells", "certified", "flow", "tangent", "observe", "settle", "measures", "verdict"];
+  const WORK = ["model", "branches", "worker", "follower"];
+  const TEETH = ["state", "player", "view/plot", "view/teeth"];
+  const PICTURES = ["view/history", "view/phase", "view/spectrum", "view/diagram", "controls", "readout"];
   const PARTS = {
-    motion: [...MOTION, "worker"],
-    explorer: [...MOTION, ...TEETH, ...PICTURES, "explorer"],
-    pair: [...MOTION, ...TEETH, "pair"],
+    motion: [...MOTION, ...WORK],
+    explorer: [...MOTION, ...WORK, ...TEETH, ...PICTURES, "explorer"],
+    pair: [...MOTION, "model", ...TEETH, "pair"],
   };
   scope.gearpairParts = PARTS;
   if (typeof document === "undefined") return;

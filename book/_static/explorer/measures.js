@@ -1,31 +1,8 @@
-// What a settled motion is called, and the numbers that describe it.
+// The numbers that describe a settled motion.
 gearpair.define("measures", [], function () {
-  const IMPACT_NAMES = {
-    none_drive: "no impact",
-    none_coast: "no impact, on the coast side",
-    single_drive: "single-sided",
-    single_coast: "single-sided, on the coast side",
-    double: "double-sided",
-    never_in_contact: "never in contact",
-  };
-
-  // The impact state from the extremes of X, as in gearpair.impact_state.
-  function impactState(low, high) {
-    if (low >= 1) return "none_drive";
-    if (high <= -1) return "none_coast";
-    if (low >= -1 && high >= 1) return "single_drive";
-    if (low < -1 && high > 1) return "double";
-    return low <= -1 ? "single_coast" : "never_in_contact";
-  }
-
   // Largest mesh force over the mean force, both as moduli; null where there is no mean force.
   function loadFactor(force, meanForce) {
     return meanForce === 0 ? null : force / Math.abs(meanForce);
-  }
-
-  function motionName(status, period) {
-    if (status === "periodic") return `period ${period}`;
-    return status === "aperiodic" ? "chaos" : status;
   }
 
   // Eigenvalues [re, im] of [m00, m01, m10, m11], the largest modulus first (then the larger imaginary part).
@@ -83,5 +60,5 @@ gearpair.define("measures", [], function () {
     }
   }
 
-  return { IMPACT_NAMES, impactState, loadFactor, motionName, multipliers, spectrum };
+  return { loadFactor, multipliers, spectrum };
 });

@@ -17,7 +17,8 @@
     return modules[name];
   }
 
-  // A program for a worker: the modules named, with all that they need, then a call of `main` with the last of them.
+  // A program for a worker: the modules named, with all that they need, then a call of `main` with the last of them
+  // and the worker's own port.
   function program(name, main) {
     const needed = new Set([name]);
     for (const [own, dependencies] of [...sources].reverse()) {
@@ -26,7 +27,7 @@
     const parts = sources
       .filter(([own]) => needed.has(own))
       .map(([own, dependencies, factory]) => `define(${JSON.stringify(own)}, ${JSON.stringify(dependencies)}, ${factory});`);
-    return `"use strict"; const modules = {}, sources = []; ${define} ${use}\n${parts.join("\n")}\n(${main})(use("${name}"));`;
+    return `"use strict"; const modules = {}, sources = []; ${define} ${use}\n${parts.join("\n")}\n(${main})(use("${name}"), globalThis);`;
   }
 
   scope.gearpair = { define, use, program };

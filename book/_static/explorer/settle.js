@@ -1,21 +1,18 @@
-// The settled motion from one start: periodic, aperiodic (a resolved positive exponent), unsettled or escaped.
+// The settled motion from one start: periodic, aperiodic (a resolved positive exponent), unsettled, floating or escaped.
 //
-// It is judged as in gearpair/_flow/settle.py, by the same tests and tolerances. Until then a motion is captured there as
-// soon as it enters a neighbourhood that none leaves; here when it has returned to RETURNED of a stable orbit, which is
-// the same orbit some time later.
-gearpair.define("settle", ["flow", "tangent", "observe"], function (flow, tangent, observe) {
-  const { OK, ESCAPED, startAt, walk } = flow;
+// It is judged as in gearpair/_flow/settle.py, by the same tests and tolerances, and watched as there: a motion that is
+// chaotic when its transient ought to be over may end all the same. Two things differ. A motion is captured there as soon
+// as it enters a neighbourhood that none leaves; here when it has returned to RETURNED of a stable orbit, which is the
+// same orbit some time later. And one that approaches an orbit slowly must do so as fast as its multipliers say.
+gearpair.define("settle", ["library", "flow", "tangent", "observe"], function (library, flow, tangent, observe) {
+  const { OK, ESCAPED, EVENT_UNDECIDED, startAt, walk } = flow;
   const { walkTangent, meanDamping, newton, exponents, spectralRadius } = tangent;
   const { extremes } = observe;
 
-  const [RETURNED, CAPTURED] = [1e-8, 1e-6];
-  const STABLE = 1 - 1e-9;
-  const NEAR = 1e-2;
-  const SAME_POINT = 1e-9;
-  const RESOLVED = 4;
-  const EXPONENT_BLOCKS = 20;
-  const PIECE = 200; // mesh periods between two chances to draw
-  const DEFAULTS = { maxPeriod: 64, exponentPeriods: 2000, samples: 256 };
+  const { RETURNED, CAPTURED, STABLE, NEAR, MOST_TRACE, SAME_POINT, RESOLVED, ROUNDING, EXPONENT_BLOCKS } = library.tolerances;
+  const DEFAULTS = library.settling;
+  const PIECE = 200; // mesh periods between two yields
+  const [CYCLES, SURE, MOST_CYCLES] = [20, 10, 2000]; // of an approach: at least, over 1 - |multiplier|, at most
 
   // Mesh periods that a transient needs to fall to 9 digits at best, flying half of the time.
   function transientPeriods(cells) {
@@ -28,15 +25,24 @@ gearpair.define("settle", ["flow", "tangent", "observe"], function (flow, tangen
     return Math.max(Math.abs(p.x - q.x), Math.abs(p.v - q.v)) / Math.max(1, Math.abs(q.x), Math.abs(q.v));
   }
 
-  // Walk until the motion returns to a stable orbit's neighbourhood: { status, orbit }, the orbit null where it did
-  // not within `maxPeriod` periods.
-  function findReturn(cells, motion, maxPeriod, closeness, capture) {
+  // A course is { motion, lasted }: where a motion is, and the mesh periods that it has been followed for. What looks for
+  // its end returns { status, orbit, floats }, which is open where the motion goes on.
+  const open = ({ status, orbit, floats }) => status === OK && !orbit && !floats;
+
+  function walkOn(cells, course, periods) {
+    course.lasted += periods;
+    return walk(cells, course.motion, periods);
+  }
+
+  // Walk until the motion returns to a stable orbit's neighbourhood, `maxPeriod` periods at most.
+  function findReturn(cells, course, maxPeriod, closeness, capture, mostTrace) {
+    const { motion } = course;
     const first = { x: motion.x, v: motion.v };
     for (let period = 1; period <= maxPeriod; period++) {
-      const status = walk(cells, motion, 1);
+      const status = walkOn(cells, course, 1);
       if (status !== OK) return { status, orbit: null };
       if (distance(motion, first) <= closeness) {
-        const orbit = newton(cells, motion.x, motion.v, period);
+        const orbit = newton(cells, motion.x, motion.v, period, mostTrace);
         if (orbit.converged && spectralRadius(orbit.monodromy) < STABLE && distance(motion, orbit) <= capture) {
           return { status: OK, orbit: shortest(cells, orbit, period) };
         }
@@ -59,48 +65,104 @@ gearpair.define("settle", ["flow", "tangent", "observe"], function (flow, tangen
     return { ...orbit, period };
   }
 
-  // `findReturn` for slow motions: the stable orbit must come nearer over twenty of its cycles.
-  function approached(cells, motion, maxPeriod) {
-    const found = findReturn(cells, motion, maxPeriod, NEAR, NEAR);
-    if (found.orbit) {
-      const before = distance(motion, found.orbit);
-      found.status = walk(cells, motion, 20 * found.orbit.period);
-      if (found.status !== OK || distance(motion, found.orbit) > Math.max(before, RETURNED)) found.orbit = null;
+  // Follow a motion for `periods` mesh periods, or until it has returned or floats.
+  function* follow(cells, course, periods, maxPeriod) {
+    let found = { status: OK, orbit: null };
+    for (let done = 0; done < periods && open(found); done += maxPeriod) {
+      found = findReturn(cells, course, maxPeriod, RETURNED, CAPTURED, Infinity);
+      if (cells.force === 0 && open(found)) found.floats = floats(cells, course.motion);
+      yield;
     }
     return found;
   }
 
-  // Follow the motion from (x, v) until it has settled. A generator that yields between pieces of work, so that a page
-  // can go on drawing; it moves `motion`, which may be looked at between, and returns
-  // { status, period, points, monodromy, low, high, force, exponents, error }.
+  // `findReturn` for slow motions: the stable orbit must come nearer, over many of its cycles.
+  function* approached(cells, course, maxPeriod) {
+    const found = findReturn(cells, course, maxPeriod, NEAR, NEAR, MOST_TRACE);
+    if (open(found) || found.status !== OK) return found;
+    const { period, monodromy } = found.orbit;
+    const radius = spectralRadius(monodromy);
+    const cycles = Math.min(Math.max(CYCLES, Math.ceil(SURE / (1 - radius))), MOST_CYCLES);
+    const allowed = Math.max(distance(course.motion, found.orbit) * radius ** (cycles / 2), RETURNED);
+    for (let done = 0; done < cycles && found.orbit && found.status === OK; done += CYCLES) {
+      found.status = walkOn(cells, course, CYCLES * period);
+      if (!(distance(course.motion, found.orbit) <= 2 * NEAR)) found.orbit = null;
+      yield;
+    }
+    if (found.orbit && !(distance(course.motion, found.orbit) <= allowed)) found.orbit = null;
+    return found;
+  }
+
+  // Whether a motion repeats within the play, as only without a mean force: one of a family, shifted at will.
+  function floats(cells, motion) {
+    if (cells.dampingRatio === 0 && cells.flightDamping === 0) return false;
+    const after = { ...motion };
+    const { status, low, high } = extremes(cells, after, 1);
+    return status === OK && distance(after, motion) <= RETURNED && low > -1 && high < 1;
+  }
+
+  const resolved = ({ largest, error }) => largest > Math.max(RESOLVED * error, ROUNDING);
+
+  function* measure(cells, course, periods) {
+    const { motion } = course;
+    course.first = { ...motion }; // what is said of a motion that does not repeat is said of the span from here on
+    course.lasted += Math.max(1, Math.floor(periods / EXPONENT_BLOCKS)) * (EXPONENT_BLOCKS + 1);
+    return yield* exponents(cells, motion, periods, EXPONENT_BLOCKS);
+  }
+
+  // Follow the motion from (x, v) until it has settled. A generator that yields between pieces of work, so that others
+  // can have their turn; it moves `motion`, which may be looked at between, and returns
+  // { status, period, points, monodromy, low, high, force, exponents, error, lasted }, `lasted` the mesh periods followed.
+  // While it watches a motion that goes on, for `watch` mesh periods, it yields the same of that, with `watching` true.
   function* settling(cells, motion, options = {}) {
-    const { maxPeriod, exponentPeriods, samples } = { ...DEFAULTS, ...options };
-    const transient = options.transient ?? transientPeriods(cells);
-    let found = { status: OK, orbit: null };
-    let measured = null;
-    for (let done = 0; done < transient && !found.orbit && found.status === OK; done += maxPeriod) {
-      found = findReturn(cells, motion, maxPeriod, RETURNED, CAPTURED);
-      yield;
-    }
-    if (!found.orbit && found.status === OK) found = approached(cells, motion, maxPeriod);
-    if (!found.orbit && found.status === OK) {
-      measured = yield* exponents(cells, motion, exponentPeriods, EXPONENT_BLOCKS);
-      found.status = measured.status;
-      if (measured.status === OK && !(measured.largest > RESOLVED * measured.error)) {
-        found = approached(cells, motion, maxPeriod);
+    const { maxPeriod, exponentPeriods, samples, watch } = { ...DEFAULTS, ...options };
+    const course = { motion, lasted: 0 };
+    let found = yield* follow(cells, course, options.transient ?? transientPeriods(cells), maxPeriod);
+    if (open(found)) found = yield* approached(cells, course, maxPeriod);
+    if (!open(found)) return conclude(cells, found, course);
+    let measured = yield* measure(cells, course, exponentPeriods);
+    let said = null;
+    let again = false;
+    const least = cells.dampingRatio > 0 || cells.flightDamping > 0 ? watch : 0; // without damping nothing settles
+    for (let watched = 0; watched < least && measured.status === OK; watched += exponentPeriods) {
+      found = yield* follow(cells, course, Math.min(exponentPeriods, least - watched), maxPeriod);
+      if (open(found)) found = yield* approached(cells, course, maxPeriod);
+      if (!open(found)) return conclude(cells, found, course);
+      if (!again && !resolved(measured) && watched + exponentPeriods >= Math.min(DEFAULTS.watch, least)) {
+        again = true;
+        measured = yield* measure(cells, course, least < DEFAULTS.watch ? exponentPeriods : DEFAULTS.watch);
+        said = null;
+        continue;
       }
+      said ??= yield* passing(cells, course.first, measured, exponentPeriods, samples);
+      yield { ...said, lasted: course.lasted, watching: true };
     }
-    if (found.status !== OK) {
-      return { status: found.status === ESCAPED ? "escaped" : "capped", period: null, points: [], force: NaN };
+    if (measured.status !== OK) return conclude(cells, { status: measured.status }, course);
+    said ??= yield* passing(cells, course.first, measured, exponentPeriods, samples);
+    return { ...said, lasted: course.lasted };
+  }
+
+  function conclude(cells, { status, orbit, floats: floating }, { motion, lasted }) {
+    if (orbit) return { ...periodic(cells, orbit), lasted };
+    if (floating) {
+      const points = [{ x: motion.x, v: motion.v }];
+      const range = extremes(cells, { ...motion }, 1);
+      const rates = [0, -2 * cells.flightDamping];
+      return { ...range, status: "floating", period: null, points, monodromy: null, exponents: rates, error: 0, lasted };
     }
-    if (found.orbit) return periodic(cells, found.orbit);
-    const status = measured.largest > RESOLVED * measured.error ? "aperiodic" : "unsettled";
-    const again = { ...motion };
-    const points = sectionPoints(cells, motion, samples);
+    const name = status === ESCAPED ? "escaped" : status === EVENT_UNDECIDED ? "undecided" : "capped";
+    return { status: name, period: null, points: [], force: NaN, lasted };
+  }
+
+  // What a motion that does not repeat is, from `first` on.
+  function* passing(cells, first, measured, periods, samples) {
+    const status = resolved(measured) ? "aperiodic" : "unsettled";
+    const points = sectionPoints(cells, { ...first }, samples);
+    const again = { ...first };
     let range;
-    for (let done = 0; done < exponentPeriods; done += PIECE) {
+    for (let done = 0; done < periods; done += PIECE) {
       yield;
-      range = extremes(cells, again, Math.min(PIECE, exponentPeriods - done), range);
+      range = extremes(cells, again, Math.min(PIECE, periods - done), range);
     }
     const { largest, smallest, error } = measured;
     return { ...range, status, period: null, points, monodromy: null, exponents: [largest, smallest], error };

@@ -2,14 +2,12 @@
 //
 // The force is continuous at X = +-1 and the stiffness switches at fixed times, so the variational flow has no jump:
 // its matrix is the product of the linear pieces' own. Where free flight has a damping of its own it has one, of
-// determinant 1, at each crossing. As in tangent.py, newton.py and observe.py of gearpair/_flow, but
-// that Newton's method gives up on no orbit for being unstable.
-gearpair.define("tangent", ["closed_form", "cells", "flow"], function (closedForm, tables, flow) {
+// determinant 1, at each crossing. As in tangent.py, newton.py and observe.py of gearpair/_flow.
+gearpair.define("tangent", ["library", "closed_form", "cells", "flow"], function (library, closedForm, tables, flow) {
   const { TERMS, value, evaluate } = closedForm;
   const { XX, XV, VX, VV, COLUMNS } = tables;
   const { OK, startAt, walk } = flow;
-  const NEWTON_STEPS = 40;
-  const NEWTON_ROUNDING = 1e-13;
+  const { NEWTON_STEPS, NEWTON_ROUNDING } = library.tolerances;
 
   // A 2 x 2 matrix is [m00, m01, m10, m11].
   function apply(xx, xv, vx, vv, m) {
@@ -61,15 +59,17 @@ gearpair.define("tangent", ["closed_form", "cells", "flow"], function (closedFor
     return total / (periods * cells.period);
   }
 
-  // A fixed point of the `period`-fold map near (x, v): { converged, x, v, monodromy }.
-  function newton(cells, x, v, period) {
+  // A fixed point of the `period`-fold map near (x, v): { converged, x, v, monodromy }. The search ends where the trace
+  // of the monodromy exceeds `mostTrace`; at a stable orbit it is below 2.
+  function newton(cells, x, v, period, mostTrace = Infinity) {
     let residual = Infinity;
     let best = { x, v };
     const m = new Float64Array(4);
     for (let i = 0; i < NEWTON_STEPS; i++) {
       m.set([1, 0, 0, 1]);
       const motion = startAt(cells, x, v);
-      if (walkTangent(cells, motion, period, m) !== OK) return { converged: false, x, v, monodromy: m };
+      const lost = walkTangent(cells, motion, period, m) !== OK || Math.abs(m[0] + m[3]) > mostTrace;
+      if (lost) return { converged: false, x, v, monodromy: m };
       const rx = motion.x - x;
       const rv = motion.v - v;
       const size = Math.max(Math.abs(rx), Math.abs(rv));
@@ -97,7 +97,7 @@ gearpair.define("tangent", ["closed_form", "cells", "flow"], function (closedFor
     for (let i = 0; i < periods; i++) {
       const status = walkTangent(cells, motion, 1, q);
       if (status !== OK) return { status, total };
-      const length = Math.hypot(q[0], q[2]);
+      const length = Math.sqrt(q[0] * q[0] + q[2] * q[2]); // Math.hypot differs between engines
       q[0] /= length;
       q[2] /= length;
       q[1] = -q[2];

@@ -1,5 +1,6 @@
 // The bifurcation diagram as a picker: X on the section over one parameter, drawn as the worker finds it.
-gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axes, inside, padded, colourName }, worker) {
+gearpair.define("diagram", ["library", "plot", "branches", "verdict"], function (library, { prepare, axes, inside, padded }, branches, verdict) {
+  const { colourName, grouped } = verdict;
   const COUNT = 400; // values of the parameter, each visited rising and falling
   const WAIT = 250; // milliseconds without a change before the worker starts
   const [TALLEST, TALLEST_BRANCH] = [10, 4]; // |X| up to which the sweeps, and a branch added to them, widen the axes
@@ -9,14 +10,13 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
     // `dots` and `overlay` are canvases on top of each other; `onPick` gets { parameter, value, x, v }.
     constructor({ dots, overlay, legend, note, onPick, onHover }) {
       Object.assign(this, { dots, overlay, legend, note, onPick, onHover });
-      this.worker = worker.start();
-      this.columns = [];
+      this.worker = branches.start();
+      this.columns = []; // by their place; one that comes again has been watched for longer
       this.order = 0;
       this.key = "";
       this.busy = true;
       this.cursor = null; // the point under the keyboard or the pointer: { column, point }
-      if (this.worker) this.worker.onmessage = ({ data }) => this.receive(data);
-      else note.textContent = "This browser refuses the worker that computes the diagram.";
+      this.worker.onmessage = ({ data }) => this.receive(data);
       overlay.addEventListener("click", (event) => this.click(event));
       overlay.addEventListener("keydown", (event) => this.press(event));
       overlay.addEventListener("blur", () => this.moveCursor(null));
@@ -29,7 +29,7 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
       const { [entry.name]: _swept, x, v, diagram: _diagram, ...rest } = state;
       const key = JSON.stringify([entry.name, rest]);
       this.entry = entry;
-      if (key === this.key || !this.worker) return;
+      if (key === this.key) return;
       this.key = key;
       this.stale = true;
       this.busy = true;
@@ -46,7 +46,7 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
     // Add the branch of a motion that both sweeps have missed: { value, points } on the section.
     follow(missed) {
       this.missed = missed;
-      if (this.busy || !this.worker) return;
+      if (this.busy) return;
       clearTimeout(this.timer);
       this.timer = setTimeout(() => {
         this.missed = null;
@@ -65,12 +65,15 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
         this.dots.style.opacity = 1;
       }
       const before = this.range();
-      this.columns.push(...batch);
+      const again = batch.some(({ place }) => place < this.columns.length);
+      for (const column of batch) this.columns[column.place] = column;
       const after = this.range();
-      if (this.plot && before.bottom === after.bottom && before.top === after.top) this.drawColumns(batch);
-      else this.draw(this.theme);
+      if (this.plot && !again && before.bottom === after.bottom && before.top === after.top) this.drawColumns(batch);
+      else if (this.theme && (batch.length || !this.plot)) this.draw(this.theme);
       this.describe();
-      this.note.textContent = done ? "" : `sweeping up and down … ${Math.min(Math.round((50 * this.columns.length) / COUNT), 99)} %`;
+      const share = Math.min(Math.round((50 * this.columns.length) / COUNT), 99);
+      const work = again || this.columns.length >= 2 * COUNT ? "watching whether the chaos ends …" : `sweeping up and down … ${share} %`;
+      this.note.textContent = done ? "" : work;
       this.busy = !done;
       if (done && this.missed) this.follow(this.missed);
     }
@@ -83,6 +86,11 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
       }
       const [bottom, top] = padded(low, high);
       return { left: this.entry.min, right: this.entry.max, bottom, top };
+    }
+
+    // Draw it unless it has been.
+    draws(theme) {
+      if (!this.plot) this.draw(theme);
     }
 
     draw(theme) {
@@ -100,6 +108,7 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
       const { ctx } = this.paper;
       inside(this.paper, this.plot, () => {
         for (const { value, motion, points } of columns) {
+          if (!points.length) this.flee(ctx, value);
           const many = points.length > 16;
           ctx.fillStyle = this.theme.motion[colourName(motion)];
           ctx.globalAlpha = many ? 0.55 : 1;
@@ -111,19 +120,33 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
       });
     }
 
-    // The legend: the motions in the diagram and the one that is marked.
+    // A motion without points, which left the picture: an arrow at its upper edge.
+    flee(ctx, value) {
+      const [x, y] = [this.plot.x(value), this.plot.box.top + 1];
+      ctx.fillStyle = this.theme.muted;
+      ctx.globalAlpha = 1;
+      ctx.beginPath();
+      ctx.moveTo(x, y);
+      ctx.lineTo(x - 3, y + 6);
+      ctx.lineTo(x + 3, y + 6);
+      ctx.fill();
+    }
+
+    // The legend: the motions in the diagram and the one that is marked; of chaos also for how long it was watched.
     describe() {
       const present = new Set(this.columns.map(({ motion }) => colourName(motion)));
       if (this.marked && this.marked.name !== "settling") present.add(colourName(this.marked.name));
-      const names = MOTIONS.filter((name) => present.has(name));
-      if (names.join() === this.names) return;
-      this.names = names.join();
+      const names = library.motions.filter((name) => present.has(name));
+      const least = Math.min(...this.columns.filter(({ motion }) => motion === "chaos").map(({ lasted }) => lasted));
+      const key = [...names, least].join();
+      if (key === this.names) return;
+      this.names = key;
       this.legend.replaceChildren(
         ...names.map((name) => {
           const item = document.createElement("li");
           item.dataset.motion = name;
           item.style.setProperty("--dot", `var(--gp-${name.replaceAll(" ", "-")})`);
-          item.textContent = name;
+          item.textContent = name === "chaos" && least < Infinity ? `chaos, watched for ${grouped(Math.floor(least / 100) * 100)} mesh periods or more` : name;
           return item;
         }),
       );
@@ -183,7 +206,7 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
 
     // A click picks the nearest point; beside all points it picks the value alone.
     click({ offsetX, offsetY }) {
-      if (!this.plot) return;
+      if (!this.plot?.within(offsetX, offsetY)) return; // beside the axes
       const best = this.nearest(offsetX, offsetY);
       if (best) this.pick(best);
       else {
@@ -199,9 +222,10 @@ gearpair.define("diagram", ["plot", "worker"], function ({ MOTIONS, prepare, axe
       this.onPick({ parameter: this.entry.name, value, x, v, motion: column.motion });
     }
 
-    // Left and right go to the neighbouring value, up and down through its points; Enter picks.
+    // Left and right go to the neighbouring value, Home and End to the first and last, up and down through its points;
+    // Enter picks.
     press(event) {
-      const moves = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1], PageUp: [20, 0], PageDown: [-20, 0] };
+      const moves = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1], PageUp: [20, 0], PageDown: [-20, 0], Home: [-COUNT, 0], End: [COUNT, 0] };
       const move = moves[event.key];
       if ((event.key === "Enter" || event.key === " ") && this.cursor) this.pick(this.cursor);
       else if (move && this.columns.length) this.step(...move);

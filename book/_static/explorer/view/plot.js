@@ -1,20 +1,12 @@
 // What the pictures share: a sharp canvas, axes, and the page's colours.
-gearpair.define("plot", [], function () {
-  const MOTIONS = ["period 1", "period 2", "period 3", "period 4", "period 6", "period 8", "other periods", "chaos", "unsettled", "escaped"];
-
-  // The colours of motion.css as they are now: they change with the theme.
+gearpair.define("plot", ["library"], function ({ motions: MOTIONS }) {
+  // The page's colours as they are now: they change with the theme, and on paper.
   function readTheme(element) {
     const style = getComputedStyle(element);
     const colour = (name) => style.getPropertyValue(`--gp-${name}`).trim();
     const motion = Object.fromEntries(MOTIONS.map((name) => [name, colour(name.replaceAll(" ", "-"))]));
     const names = ["ink", "muted", "line", "backlash", "boundary", "paper", "steel", "steel2", "steel-edge", "drive", "coast"];
     return { ...Object.fromEntries(names.map((name) => [name, colour(name)])), motion, font: style.fontFamily };
-  }
-
-  // The name under which a motion has its colour, as in gearpair/plotting/style.py.
-  function colourName(name) {
-    if (MOTIONS.includes(name)) return name;
-    return name.startsWith("period") ? "other periods" : "unsettled";
   }
 
   // Sizes of canvases in CSS pixels. To ask for one makes the browser lay out the page, too slow for every frame.
@@ -88,11 +80,12 @@ gearpair.define("plot", [], function () {
     ctx.textBaseline = "middle";
     ctx.fillText(yLabel, 0, 0);
     ctx.restore();
+    const within = (px, py) => px >= box.left && px <= box.right && py >= box.top && py <= box.bottom;
     const data = (px, py) => ({
       x: range.left + ((px - box.left) / (box.right - box.left)) * (range.right - range.left),
       y: range.bottom + ((box.bottom - py) / (box.bottom - box.top)) * (range.top - range.bottom),
     });
-    return { box, x, y, data };
+    return { box, x, y, data, within };
   }
 
   const sign = (value) => String(value).replace("-", "−"); // a minus, not a hyphen
@@ -114,5 +107,5 @@ gearpair.define("plot", [], function () {
     return [Math.floor((low - air) / step) * step, Math.ceil((high + air) / step) * step];
   }
 
-  return { MOTIONS, readTheme, colourName, prepare, forgetSizes, axes, inside, padded, sign };
+  return { readTheme, prepare, forgetSizes, axes, inside, padded, sign };
 });

@@ -28,5 +28,14 @@ gearpair.define("spectrum_view", ["plot"], function ({ prepare, axes, inside }) 
     return plot;
   }
 
-  return { drawSpectrum };
+  // What its lines tell.
+  function tells({ status, period }) {
+    if (status === "settling") return "";
+    if (status === "floating" || period === 1) return "lines at whole numbers alone: it repeats in every mesh period";
+    if (period === 2) return "lines at halves: the period has doubled";
+    if (period) return `lines at multiples of 1/${period}: it repeats every ${period} mesh periods`;
+    return status === "escaped" ? "" : "a broad band: it does not repeat";
+  }
+
+  return { drawSpectrum, tells };
 });
