@@ -2,11 +2,12 @@
 // <script src=".../explorer/load.js" data-part="pair" defer></script><script src=".../chart/load.js" defer></script>
 (function (scope) {
   "use strict";
-  const ENGINE = ["numbers", "tooth", "pair", "body", "mesh"];
+  const ENGINE = ["data", "numbers", "tooth", "pair", "body", "mesh", "drive", "standards", "motions", "verdict", "file"];
+  const PAGE = ["worker", "study", "figure", "words", "page"];
   scope.gearpairChart = { engine: ENGINE };
   if (typeof document === "undefined") return;
   const { src } = document.currentScript;
-  for (const name of [...ENGINE]) {
+  for (const name of [...ENGINE, ...PAGE]) {
     const script = document.createElement("script");
     script.src = src.replace("load.js", `${name}.js`);
     script.async = false; // run in this order
