@@ -23,24 +23,35 @@ gearpair.define("chart/figure", ["plot", "chart/verdict"], function ({ prepare, 
     const top = FLOOR + (Math.max(1.2, ...tops.filter(Number.isFinite)) - FLOOR) * 1.08;
     const range = { left: speeds[0], right: speeds.at(-1), bottom: FLOOR, top };
     const yLabel = "largest mesh force / mean force";
-    const plot = axes(paper, range, theme, { xLabel: "speed of the pinion (rpm)", yLabel });
+    const plot = axes(paper, range, theme, { xLabel: "speed of the pinion (rpm)", yLabel, xTicks: ticksOf(range, width) });
     inside(paper, plot, () => {
       ctx.fillStyle = inks.avoid;
       for (const { lower, upper } of told.avoid) {
         ctx.fillRect(plot.x(lower), plot.box.top, Math.max(plot.x(upper) - plot.x(lower), 2), plot.box.bottom - plot.box.top);
       }
       if (band) area(ctx, plot, band.speeds, band.factors[1], band.factors[0], inks.damping);
-      if (chart.phases.length > 1) area(ctx, plot, speeds, chart.factorLow, chart.factorHigh, inks.phases);
+      if (chart.unknown) area(ctx, plot, speeds, chart.factorLow, chart.factorHigh, inks.phases);
       ctx.lineJoin = "round";
       if (linear) line(ctx, plot, linear.speeds, linear.factors, { colour: inks.grey, width: 1 });
       if (iso && !iso.outside) line(ctx, plot, speeds, iso.factors, { colour: inks.grey, width: 1.4, dash: [6, 3] });
       if (ghost) line(ctx, plot, ghost.chart.speeds, ghost.chart.factorHigh, { colour: inks.ghost, width: 2.2, dash: [1.5, 3.5] });
       run(ctx, plot, inks, chart, "down", { width: 1.9, dash: [5, 3] });
       run(ctx, plot, inks, chart, "up", { width: 2.4, dash: [] });
-      if (chart.phases.length === 1) circles(ctx, plot, inks, chart);
+      if (!chart.unknown) circles(ctx, plot, inks, chart);
     });
-    avoided(ctx, plot, theme, told.avoid, width);
+    avoided(ctx, plot, theme, told.avoid);
     return plot;
+  }
+
+  // Round speeds, none so near to an end that its words would be cut off.
+  function ticksOf({ left, right }, width) {
+    const rough = (right - left) / Math.max(3, width / 90);
+    const power = 10 ** Math.floor(Math.log10(rough));
+    const step = power * [1, 2, 5, 10].find((factor) => factor * power >= rough);
+    const last = right - ((right - left) * 14) / width;
+    const values = [];
+    for (let k = Math.ceil(left / step); k * step < last; k++) values.push(Number((k * step).toPrecision(12)));
+    return values.map((value) => [value, String(value)]);
   }
 
   function line(ctx, plot, xs, ys, { colour, width, dash = [] }) {
@@ -98,7 +109,7 @@ gearpair.define("chart/figure", ["plot", "chart/verdict"], function ({ prepare, 
     ctx.textAlign = "left";
     ctx.textBaseline = "top";
     for (const { lower, upper } of ranges) {
-      const word = upper - lower > 0 && plot.x(upper) - plot.x(lower) > 96 ? "speeds to avoid" : "avoid";
+      const word = plot.x(upper) - plot.x(lower) > 96 ? "speeds to avoid" : "avoid";
       if (plot.x(upper) - plot.x(lower) > 36) ctx.fillText(word, plot.x(lower) + 6, plot.box.top + 5);
     }
   }
@@ -130,11 +141,11 @@ gearpair.define("chart/figure", ["plot", "chart/verdict"], function ({ prepare, 
   function legendOf({ chart, iso, linear, band, ghost }) {
     const states = new Set([...chart.up, ...chart.down].map(({ impact }) => STATES[impact] ?? "other"));
     const words = { together: "teeth together", single: "one flank struck", double: "both flanks struck", other: "other" };
-    const phase = chart.phases.length > 1 ? `, at the worst phase, ${degrees(chart.phases[chart.chosen])}` : "";
+    const phase = chart.unknown ? `, at the worst phase, ${degrees(chart.phases[chart.chosen])}` : "";
     return [
       ["line", `run up${phase}`], ["dash", "run down"],
       ...Object.keys(words).filter((name) => states.has(name)).map((name) => [`dot ${name}`, words[name]]),
-      ...(chart.phases.length > 1 ? [["area phases", "any phase of the error"]] : []),
+      ...(chart.unknown ? [["area phases", "any phase of the error"]] : []),
       ...(iso && !iso.outside ? [["dash grey", "ISO 6336-1"]] : []),
       ...(linear ? [["thin grey", "linear response"]] : []),
       ...(band ? [["area damping", "damping halved to doubled"]] : []),

@@ -78,7 +78,7 @@ gearpair.define("chart/numbers", [], function () {
     const [mantissa, exponent] = value.toExponential().split("e");
     const power = Number(exponent);
     if (power < -4 || power >= 16) return `${mantissa}e${powerOf(power)}`;
-    const text = Math.abs(value) < 1e-6 || Math.abs(value) >= 1e21 ? value.toFixed(20) : String(value);
+    const text = String(value);
     return text.includes(".") ? text : `${text}.0`;
   }
 

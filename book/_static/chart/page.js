@@ -35,6 +35,7 @@ gearpair.define(
             return `<details${open}><summary>${title}</summary>${fields.map(row).join("")}</details>`;
           })
           .join("");
+        this.heads = [...this.find("ranges").querySelectorAll("th")].map((head) => head.textContent);
         this.inputs = Object.fromEntries([...this.find("fields").querySelectorAll("[name]")].map((input) => [input.name, input]));
       }
 
@@ -64,7 +65,7 @@ gearpair.define(
         this.written = own;
         const { state, complaints } = files.parse(own);
         this.set(state);
-        this.say(complaints.join(" "));
+        if (complaints.length) this.say(complaints.join(" "));
       }
 
       set(state) {
@@ -89,6 +90,7 @@ gearpair.define(
         } catch (refusal) {
           this.say(`${refusal.message}.`);
           this.root.classList.add("gp-refused");
+          this.find("save").removeAttribute("href"); // it would be another drive's
           this.study.pool.clear();
           return;
         }
@@ -160,8 +162,11 @@ gearpair.define(
       news() {
         this.find("progress").textContent = this.study.progress;
         this.root.classList.toggle("gp-working", this.study.done.size < 3);
-        const { shown } = this.study;
+        const { shown, done } = this.study;
         if (!shown) return;
+        if (done.size === 3 && this.find("live").textContent !== shown.told.sentences[0]) {
+          this.find("live").textContent = shown.told.sentences[0];
+        }
         if (shown !== this.told) {
           this.told = shown;
           this.tell(shown);
@@ -175,7 +180,8 @@ gearpair.define(
         this.find("rule").textContent = first;
         this.find("sentences").innerHTML = [...rest, ...missing].map((text) => `<p>${text}</p>`).join("");
         this.root.dataset.verdict = told.avoid.length ? "avoid" : "together";
-        const rows = told.avoid.map((range) => `<tr><td>${words.rangeRow(range).join("</td><td>")}</td></tr>`);
+        const cell = (text, i) => `<td data-head="${this.heads[i]}">${text}</td>`;
+        const rows = told.avoid.map((range) => `<tr>${words.rangeRow(range).map(cell).join("")}</tr>`);
         this.find("ranges").hidden = rows.length === 0;
         this.find("rows").innerHTML = rows.join("");
         this.rpm ??= this.mostApart(chart);
@@ -269,9 +275,9 @@ gearpair.define(
         const elapsed = Math.min(now - (this.last ?? now), 100) / 1000;
         this.last = now;
         requestAnimationFrame((next) => this.frame(next));
-        if (!this.moving || !this.theme || !this.visible || (!this.playing && this.still)) return;
+        if (!this.moving || !this.theme || ((!this.playing || !this.visible) && this.still)) return;
         if (this.playing) this.time += elapsed * SPEED;
-        this.still = !this.playing;
+        this.still = true; // once is drawn what does not move, or is not seen
         this.moving.forEach((each, k) => {
           if (!each) return;
           const { periods } = each.recorded;

@@ -16,6 +16,7 @@ gearpair.define("chart/verdict", ["chart/data", "chart/numbers"], function (data
     const worst = at.map((column) => argmax(column.map(({ motions, worst: k }) => finite(motions[k].toothForce))));
     return {
       drive, speeds, phases, chosen,
+      unknown: drive.error > 0, // the phase, of which not all may have been tried yet
       up: seen[chosen].map(({ motions }) => motions[0]),
       down: seen[chosen].map(({ motions, down }) => motions[down]),
       worst: at.map((column, i) => column[worst[i]].motions[column[worst[i]].worst]),
@@ -29,7 +30,7 @@ gearpair.define("chart/verdict", ["chart/data", "chart/numbers"], function (data
   }
 
   // The ranges in which the teeth part, by rising speed; bounded midway between two speeds of the chart.
-  function speedsToAvoid({ speeds, phases, loss, ...chart }) {
+  function speedsToAvoid({ speeds, unknown, loss, ...chart }) {
     const stretches = [];
     for (let first = 0; first < speeds.length; ) {
       let last = first;
@@ -44,7 +45,7 @@ gearpair.define("chart/verdict", ["chart/data", "chart/numbers"], function (data
       const factors = chart.factorHigh.slice(first, last);
       const top = argmax(factors.map(finite));
       const ways = [...new Set(loss.slice(first, last).filter(Boolean))];
-      const told = phases.length > 1 && numbers(factors).length > 0;
+      const told = unknown && numbers(factors).length > 0;
       return {
         lower: edge(first), upper: edge(last),
         why: `the teeth ${ways.join(", elsewhere ")}`,
@@ -81,8 +82,8 @@ gearpair.define("chart/verdict", ["chart/data", "chart/numbers"], function (data
     return { avoid, together, rule, sentences: sentences.filter(Boolean) };
   }
 
-  function phaseSentence({ phases, chosen }) {
-    if (phases.length === 1) return "No phase had to be chosen: that of the error is given, or there is no error.";
+  function phaseSentence({ phases, chosen, unknown }) {
+    if (!unknown) return "No phase had to be chosen: that of the error is given, or there is no error.";
     return (
       "How the error stands to the stiffness wave, its phase, is on no drawing: of the phases that were tried " +
       `${degrees(phases[chosen])} is the worst, and the verdict holds for all.`
