@@ -33,7 +33,7 @@ LABELS = {
     "face_width_mm": "face width",
     "pinion_torque_nm": "torque of the pinion",
     "backlash_um": "backlash",
-    "backlash": "stated",
+    "backlash": "stated as",
     "transmission_error_um": "transmission error, amplitude",
     "damping_ratio": "damping ratio",
     "pressure_angle_deg": "pressure angle",

@@ -112,7 +112,7 @@ gearpair.define("chart/data", [], function () {
         },
         {
           "name": "backlash",
-          "label": "stated",
+          "label": "stated as",
           "unit": "",
           "value": "normal",
           "symbol": "",

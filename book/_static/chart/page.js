@@ -17,6 +17,7 @@ gearpair.define(
     class Page {
       constructor(root) {
         this.root = root;
+        root.classList.add("gp-explorer"); // whose colours it has; on paper it has no place
         this.find = (name) => root.querySelector(`[data-part="${name}"]`);
         this.study = new Study(() => this.news());
         this.playing = !player.prefersStill();
@@ -216,7 +217,11 @@ gearpair.define(
 
       // The motions under the cursor, of which the teeth are drawn.
       record(chart) {
-        const oscillator = drives.oscillatorAt(this.study.drive, chart.speeds[this.at], chart.phases[chart.chosen]);
+        const phase = chart.phases[chart.chosen];
+        const same = JSON.stringify([this.written, this.at, phase, RUNS.map((run) => chart[run][this.at].start)]);
+        if (same === this.recordedOf) return;
+        this.recordedOf = same;
+        const oscillator = drives.oscillatorAt(this.study.drive, chart.speeds[this.at], phase);
         this.cells = tables.buildCells(oscillator);
         this.meanForce = oscillator.mean_force;
         this.time = 0;

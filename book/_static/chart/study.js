@@ -10,6 +10,7 @@ gearpair.define(
       { count: data.n_speeds, nStarts: 0, words: `${data.n_speeds} speeds` },
       { count: data.n_speeds, nStarts: data.n_starts, words: `${data.n_starts} other starts at each` },
     ];
+    const PAUSE = 400; // milliseconds between two pictures while other starts come in
     const DAMPINGS = [0.5, 2];
 
     class Study {
@@ -58,13 +59,15 @@ gearpair.define(
         if (whole) this.done.add(stage);
         // Of the first look every phase that is known is shown, of a finer one all at once, of other starts each.
         const known = this.seen.filter((row) => row.length === speeds.length && !row.includes(undefined));
-        if (whole || (stage === 0 && done && known.length) || stage === 2) this.show(speeds, whole ? this.seen : known);
+        const due = stage === 2 && performance.now() - this.shownAt > PAUSE;
+        if (whole || (stage === 0 && done && known.length) || due) this.show(speeds, whole ? this.seen : known);
         if (whole && stage < STAGES.length - 1) this.begin(stage + 1);
         if (whole && stage === 1 && this.wantsBand) this.askBand();
         this.onNews();
       }
 
       show(speeds, seen) {
+        this.shownAt = performance.now();
         const phases = seen === this.seen ? this.phases : this.phases.filter((_, k) => seen.includes(this.seen[k]));
         const chart = columnsOf(this.drive, speeds, phases, seen);
         const iso = isoFactors(this.drive, speeds);
