@@ -74,7 +74,10 @@ def test_by_the_keyboard_alone(chart):
     assert f"run up {text(page, 'name-up')}" in told
     tab_to(page, "[data-part=pin]")
     page.keyboard.press("Enter")
-    assert text(page, "legend").endswith("pinned: 28/57 teeth, module 2 mm, 120 N m")
+    assert text(page, "legend").endswith("pinned: this drive")
+    page.fill("[name=module_mm]", "3")
+    page.wait_for_function(f"location.hash === '' && {PAGE}.study.done.has(1)")
+    assert text(page, "legend").endswith("pinned: module 2 mm")
     tab_to(page, "[data-part=band]")
     page.keyboard.press("Space")
     page.wait_for_function(f"{PAGE}.study.band?.rest === 0")

@@ -1,7 +1,10 @@
 // The picture of a chart: the dynamic factor over the speed. Colours of lines as in gearpair/plotting/speed_chart.py.
-gearpair.define("chart/figure", ["plot", "chart/verdict"], function ({ prepare, axes, inside }, { degrees }) {
+gearpair.define("chart/figure", ["plot", "chart/verdict", "chart/words"], function ({ prepare, axes, inside }, { degrees }, { differences }) {
   const LEAP = 0.25; // change from one speed to the next, of the largest factor, that is drawn as a jump
   const FLOOR = 0.8;
+  const BEYOND = 1e5; // where a motion without bound is drawn
+  const TALL = 16; // a factor beyond which the axis is logarithmic, so that the rest can be seen too
+  const DECADES = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000].map((factor) => [Math.log10(factor), String(factor)]);
 
   // The colours of chart.css as they are now.
   function readInks(element) {
@@ -20,10 +23,15 @@ gearpair.define("chart/figure", ["plot", "chart/verdict"], function ({ prepare, 
     const { ctx, width } = paper;
     const { speeds } = chart;
     const tops = [...chart.factorHigh, ...(iso?.factors ?? []), ...(ghost ? ghost.chart.factorHigh : []), ...(band ? band.factors[0] : [])];
-    const top = FLOOR + (Math.max(1.2, ...tops.filter(Number.isFinite)) - FLOOR) * 1.08;
-    const range = { left: speeds[0], right: speeds.at(-1), bottom: FLOOR, top };
+    const most = Math.max(1.2, ...tops.filter(Number.isFinite));
+    const tall = most > TALL;
+    const scale = tall ? Math.log10 : (value) => value;
+    const top = tall ? scale(most * 1.3) : FLOOR + (most - FLOOR) * 1.08;
+    const range = { left: speeds[0], right: speeds.at(-1), bottom: scale(FLOOR), top };
+    const yTicks = tall ? DECADES.filter(([value]) => value < top) : undefined;
     const yLabel = "largest mesh force / mean force";
-    const plot = axes(paper, range, theme, { xLabel: "speed of the pinion (rpm)", yLabel, xTicks: ticksOf(range, width) });
+    const drawn = axes(paper, range, theme, { xLabel: "speed of the pinion (rpm)", yLabel, xTicks: ticksOf(range, width), yTicks });
+    const plot = { ...drawn, y: (factor) => drawn.y(scale(factor)) };
     inside(paper, plot, () => {
       ctx.fillStyle = inks.avoid;
       for (const { lower, upper } of told.avoid) {
@@ -60,7 +68,11 @@ gearpair.define("chart/figure", ["plot", "chart/verdict"], function ({ prepare, 
     ctx.lineCap = "butt";
     ctx.setLineDash(dash);
     ctx.beginPath();
-    xs.forEach((x, i) => (Number.isFinite(ys[i]) ? ctx.lineTo(plot.x(x), plot.y(ys[i])) : ctx.moveTo(plot.x(x), plot.y(FLOOR))));
+    xs.forEach((x, i) => {
+      if (!Number.isFinite(ys[i])) return;
+      if (Number.isFinite(ys[i - 1])) ctx.lineTo(plot.x(x), plot.y(ys[i]));
+      else ctx.moveTo(plot.x(x), plot.y(ys[i]));
+    });
     ctx.stroke();
     ctx.setLineDash([]);
   }
@@ -68,8 +80,8 @@ gearpair.define("chart/figure", ["plot", "chart/verdict"], function ({ prepare, 
   function area(ctx, plot, xs, low, high, colour) {
     ctx.fillStyle = colour;
     ctx.beginPath();
-    xs.forEach((x, i) => ctx.lineTo(plot.x(x), plot.y(Math.min(high[i] || 99, 99))));
-    for (let i = xs.length - 1; i >= 0; i--) ctx.lineTo(plot.x(xs[i]), plot.y(Math.min(low[i] || 99, 99)));
+    xs.forEach((x, i) => ctx.lineTo(plot.x(x), plot.y(high[i] || BEYOND)));
+    for (let i = xs.length - 1; i >= 0; i--) ctx.lineTo(plot.x(xs[i]), plot.y(low[i] || BEYOND));
     ctx.closePath();
     ctx.fill();
   }
@@ -149,7 +161,7 @@ gearpair.define("chart/figure", ["plot", "chart/verdict"], function ({ prepare, 
       ...(iso && !iso.outside ? [["dash grey", "ISO 6336-1"]] : []),
       ...(linear ? [["thin grey", "linear response"]] : []),
       ...(band ? [["area damping", "damping halved to doubled"]] : []),
-      ...(ghost ? [["dots ghost", `pinned: ${ghost.title}`]] : []),
+      ...(ghost ? [["dots ghost", `pinned: ${differences(ghost.chart.drive.state, chart.drive.state)}`]] : []),
     ];
   }
 

@@ -3,7 +3,7 @@
 (function (scope) {
   "use strict";
   const ENGINE = ["data", "numbers", "tooth", "pair", "body", "mesh", "drive", "standards", "motions", "verdict", "file"];
-  const PAGE = ["worker", "study", "figure", "words", "page"];
+  const PAGE = ["worker", "study", "words", "figure", "page"];
   scope.gearpairChart = { engine: ENGINE };
   if (typeof document === "undefined") return;
   const { src } = document.currentScript;

@@ -47,8 +47,8 @@ gearpair.define(
         this.find("pin").addEventListener("click", () => this.pin());
         this.find("band").addEventListener("change", ({ target }) => this.setBand(target.checked));
         this.find("play").addEventListener("click", () => this.play(!this.playing));
-        this.find("link").addEventListener("click", () => this.copy("link", location.href));
-        this.find("command").addEventListener("click", () => this.copy("command", this.find("command").dataset.text));
+        this.find("link").addEventListener("click", () => this.copy("link", location.href, "It is in the address bar"));
+        this.find("command").addEventListener("click", () => this.copy("command", this.find("command").dataset.text, this.find("command").dataset.text));
         const cursor = this.find("cursor");
         cursor.addEventListener("keydown", (event) => this.key(event));
         cursor.addEventListener("pointerdown", (event) => (cursor.setPointerCapture(event.pointerId), this.point(event)));
@@ -129,14 +129,14 @@ gearpair.define(
         this.find("facts").innerHTML = words.factsOf(this.drive).map(([name, value]) => `<div><dt>${name}</dt><dd>${value}</dd></div>`).join("");
       }
 
-      async copy(name, text) {
+      async copy(name, text, otherwise) {
         const button = this.find(name);
         const label = (button.dataset.label ??= button.textContent);
         try {
           await navigator.clipboard.writeText(text);
           button.textContent = "Copied";
         } catch {
-          button.textContent = text;
+          button.textContent = otherwise;
         }
         setTimeout(() => (button.textContent = label), 1600);
       }
@@ -144,7 +144,7 @@ gearpair.define(
       // Keep the chart as a ghost behind the next one; a second time lets it go.
       pin() {
         const shown = this.study.shown;
-        this.ghost = this.ghost || !shown ? null : { ...shown, title: words.titleOf(this.drive.state) };
+        this.ghost = this.ghost || !shown ? null : shown;
         this.find("pin").textContent = this.ghost ? "Let the pinned one go" : "Pin this variant";
         this.draw();
       }

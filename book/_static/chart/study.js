@@ -99,11 +99,17 @@ gearpair.define(
           for (const { factor } of motions) if (factor > this.band.factors[band][i]) this.band.factors[band][i] = factor;
         }
         this.band.rest -= batch.length;
-        if (this.band.rest === 0) this.onNews();
+        this.onNews();
       }
 
       // How far it is, in words.
       get progress() {
+        const { band } = this;
+        const share = band ? Math.floor(100 * (1 - band.rest / (2 * this.phases.length * COARSE))) : 0;
+        return this.stageWords + (this.wantsBand && share < 100 ? `; damping halved and doubled: ${share} %` : "");
+      }
+
+      get stageWords() {
         if (this.done.size === STAGES.length) return `${STAGES[2].words} of ${STAGES[1].words} and ${this.phaseWords}: done`;
         return `${STAGES[this.stage].words}, ${this.phaseWords}: ${Math.floor(100 * this.share)} %`;
       }

@@ -28,14 +28,19 @@ gearpair.define("chart/words", ["chart/data", "chart/numbers", "chart/verdict"],
       ["mesh stiffness", `${fixed(drive.mean / 1e6, 1)} N/µm`],
       ["equivalent mass", `${general(drive.mass, 4)} kg`],
       ["static deflection", `${fixed((drive.meanForce / drive.mean) * 1e6, 2)} µm`],
-      ["mean mesh force", `${general(drive.meanForce, 4)} N`],
+      ["mean mesh force", `${fixed(drive.meanForce, 0)} N`],
       ["mesh resonance", `${fixed(drive.resonance, 0)} rpm`],
     ];
   }
 
-  function titleOf({ pinion_teeth, gear_teeth, module_mm, pinion_torque_nm }) {
-    return `${pinion_teeth}/${gear_teeth} teeth, module ${general(module_mm)} mm, ${general(pinion_torque_nm)} N m`;
+  // In what one state differs from another, in a few words; the pair itself where in nothing.
+  function differences(state, other) {
+    const told = data.groups
+      .flatMap(({ fields }) => fields)
+      .filter(({ name }) => state[name] !== other[name])
+      .map(({ name, label, unit }) => `${label} ${state[name] ?? "as it comes"} ${unit.replace("um", "µm")}`.trim());
+    return told.length > 3 ? `${told.slice(0, 2).join(", ")} and ${told.length - 2} others` : told.join(", ") || "this drive";
   }
 
-  return { nameOf, bears, rangeRow, factsOf, titleOf };
+  return { nameOf, bears, rangeRow, factsOf, differences };
 });

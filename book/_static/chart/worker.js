@@ -41,18 +41,18 @@ gearpair.define("chart/worker", ["chart/motions", "chart/standards", "chart/driv
     constructor(onAnswer) {
       this.queue = [];
       this.count = 0;
-      this.own = new Map(); // orders under way, by id
       const size = Math.min(4, Math.max(1, (navigator.hardwareConcurrency || 2) - 1));
-      this.members = Array.from({ length: size }, () => this.member(onAnswer)).filter((each, i, all) => each.worker || i === all.findIndex((one) => !one.worker));
+      const members = Array.from({ length: size }, () => this.member(onAnswer));
+      this.members = members[0].worker ? members : members.slice(0, 1);
     }
 
     member(onAnswer) {
-      const member = { busy: false, worker: null };
+      const member = { order: null, worker: null }; // the order under way, { id, about }
       const answered = (answer) => {
-        const order = this.own.get(answer.id);
-        if (answer.done) member.busy = false;
-        if (answer.done) this.own.delete(answer.id);
-        if (order) onAnswer(order, answer);
+        const { order } = member;
+        if (order?.id !== answer.id) return; // of an order that was ended
+        if (answer.done) member.order = null;
+        onAnswer(order.about, answer);
         this.next();
       };
       try {
@@ -74,22 +74,19 @@ gearpair.define("chart/worker", ["chart/motions", "chart/standards", "chart/driv
 
     next() {
       for (const member of this.members) {
-        if (member.busy || !this.queue.length) continue;
-        const order = { ...this.queue.shift(), id: ++this.count };
-        member.busy = true;
-        this.own.set(order.id, order.about);
-        const { about, ...sent } = order;
-        member.send(sent);
+        if (member.order || !this.queue.length) continue;
+        const { about, ...sent } = this.queue.shift();
+        member.order = { id: ++this.count, about };
+        member.send({ ...sent, id: this.count });
       }
     }
 
     // End all that is under way.
     clear() {
       this.queue = [];
-      this.own.clear();
       for (const member of this.members) {
-        if (member.busy) member.send({});
-        member.busy = false;
+        if (member.order) member.send({});
+        member.order = null;
       }
     }
   }
