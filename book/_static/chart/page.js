@@ -17,7 +17,7 @@ gearpair.define(
     class Page {
       constructor(root) {
         this.root = root;
-        root.classList.add("gp-explorer"); // whose colours it has; on paper it has no place
+        root.classList.add("gp", "gp-explorer"); // whose colours it has; on paper it has no place
         this.find = (name) => root.querySelector(`[data-part="${name}"]`);
         this.study = new Study(() => this.news());
         this.playing = !player.prefersStill();
