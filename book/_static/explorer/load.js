@@ -5,10 +5,12 @@
   const MOTION = ["modules", "closed_form", "cells", "certified", "flow", "tangent", "observe", "settle", "measures"];
   const TEETH = ["state", "model", "player", "view/plot", "view/teeth"];
   const PICTURES = ["view/history", "view/phase", "view/spectrum", "worker", "view/diagram", "controls", "readout"];
+  const SOUND = ["sounds", "listen"];
   const PARTS = {
-    motion: [...MOTION, "worker"],
-    explorer: [...MOTION, ...TEETH, ...PICTURES, "explorer"],
+    motion: [...MOTION, "worker", "sounds"],
+    explorer: [...MOTION, ...TEETH, ...PICTURES, ...SOUND, "story", "explorer"],
     pair: [...MOTION, ...TEETH, "pair"],
+    story: [...MOTION, ...TEETH, ...SOUND, "story"],
   };
   scope.gearpairParts = PARTS;
   if (typeof document === "undefined") return;
