@@ -1,8 +1,8 @@
 // The explorer page: one state, everything drawn from it.
 gearpair.define(
   "explorer",
-  ["state", "model", "player", "controls", "readout", "plot", "teeth", "history", "phase", "spectrum_view", "diagram", "listen"],
-  function (states, models, player, controls, readout, plotting, teeth, history, phase, spectra, diagrams, listening) {
+  ["state", "model", "player", "controls", "readout", "plot", "teeth", "history", "phase", "spectrum_view", "diagram"],
+  function (states, models, player, controls, readout, plotting, teeth, history, phase, spectra, diagrams) {
     const BUDGET = 9; // milliseconds a frame for a motion to settle
     const PASSING = 150; // between two pictures of a motion that has not settled
     const ADDRESS = 300; // without a change before the address is written
@@ -24,7 +24,6 @@ gearpair.define(
           onPick: ({ parameter, value, x = this.state.x, v = this.state.v }) => this.change({ [parameter]: value, x, v }),
           onHover: (cursor) => this.hover(cursor),
         });
-        this.follow = listening.build(this.find("listen"));
         this.listen();
         this.readAddress();
         requestAnimationFrame((now) => this.frame(now));
@@ -151,7 +150,7 @@ gearpair.define(
         this.draw();
         if (!this.diagram.plot) this.diagram.draw(this.theme);
         this.showReadout(this.shown);
-        if (ready) this.follow(this.state, this.shown);
+        if (ready) this.root.dispatchEvent(new CustomEvent("motionshown", { detail: { ...this.shown, state: this.state } }));
         if (this.shown.status === "periodic") {
           this.diagram.follow({ value: this.state[this.state.diagram], points: this.shown.points });
         }

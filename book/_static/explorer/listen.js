@@ -3,7 +3,7 @@ gearpair.define("listen", ["sounds", "plot"], function (sounds, { sign }) {
   const FADE = 0.06; // seconds, at both ends and from one motion to the next; as FADE of gearpair/design/sounds.py
   const LONGEST = 10; // seconds after the last change
   const LEVEL = 0.5; // of what the loudspeaker can do, at full scale
-  const NATURAL = { value: 1000, least: 50, most: 2500 }; // Hz; the chapter In service plays the baseline at 1000
+  const NATURAL = { value: 1000, least: 50, most: 6000 }; // Hz; the chapter In service plays the baseline at 1000, its own drive has 5190
 
   // One motion on its way to `output`, 1 where its force is full scale: { fadeOut(at) }, which ends it. Times are `context`'s.
   function voice(context, output, heard, fullScale, at) {
@@ -47,6 +47,8 @@ gearpair.define("listen", ["sounds", "plot"], function (sounds, { sign }) {
     return clip;
   }
 
+  let sounding = null; // the one Listener of the page that may be heard
+
   // Plays one motion at a time. `onChange(heard)` is told what is heard now, null for silence.
   class Listener {
     constructor(onChange) {
@@ -74,6 +76,8 @@ gearpair.define("listen", ["sounds", "plot"], function (sounds, { sign }) {
 
     // Play it, or go over to it.
     hear(heard) {
+      if (sounding !== this) sounding?.stop();
+      sounding = this;
       this.compare(heard);
       const at = this.context.currentTime + 0.01;
       this.voice?.fadeOut(at);
@@ -138,9 +142,9 @@ gearpair.define("listen", ["sounds", "plot"], function (sounds, { sign }) {
     return `${pitch} ${sign(listener.level(heard).toFixed(0))} dB of full scale.`;
   }
 
-  // Fills `element` with a button, a field and a caption; returns `follow(state, motion)`, to be called with each settled
-  // motion { name, period, points } that the page shows.
-  function build(element) {
+  // Fills `element` with a button, a field and a caption, to hear the motions { state, status, period, points } that `root`
+  // tells of by the event `motionshown`.
+  function build(root, element) {
     element.classList.add("gp-listen");
     element.innerHTML =
       `<button type="button" aria-pressed="false">Listen</button>` +
@@ -165,15 +169,15 @@ gearpair.define("listen", ["sounds", "plot"], function (sounds, { sign }) {
         status.textContent = `The natural frequency must be ${NATURAL.least} to ${NATURAL.most} Hz, got “${field.value}”.`;
         return;
       }
-      const { state, motion } = now;
+      const { state } = now;
       if (listener.fullScale && listener.meanForce !== state.mean_force) listener.fullScale = 0; // another load: a new scale
       listener.meanForce = state.mean_force;
-      const heard = await prepare(state, motion, natural * state.mesh_frequency);
+      const heard = await prepare(state, now, natural * state.mesh_frequency);
       if (own !== listener.order || !(wanted || listener.heard)) return;
       if (heard) listener.hear(heard);
       else {
         listener.stop();
-        status.textContent = "Nothing to hear: the motion does not stay bounded.";
+        status.textContent = `Nothing to hear: ${now.points.length ? `all of it lies above ${sounds.HIGHEST / 1000} kHz` : "the motion does not stay bounded"}.`;
       }
     }
 
@@ -187,13 +191,17 @@ gearpair.define("listen", ["sounds", "plot"], function (sounds, { sign }) {
     field.addEventListener("change", () => play(false));
     let timer;
     element.listener = listener;
-    return function follow(state, motion) {
-      now = { state: { ...state }, motion };
+    root.addEventListener("motionshown", ({ detail }) => {
+      if (detail.status === "settling") return;
+      now = detail;
       if (!listener.heard) return;
       clearTimeout(timer);
       timer = setTimeout(() => play(false), 1000 * FADE); // no faster than one fades into the next
-    };
+    });
   }
 
-  return { FADE, LEVEL, NATURAL, Listener, voice, output, prepare, told, build };
+  const root = document.getElementById("explorer");
+  if (root) build(root, root.querySelector("[data-part=listen]"));
+
+  return { FADE, LEVEL, NATURAL, Listener, voice, output, told };
 });

@@ -17,7 +17,7 @@ gearpair.define("sounds", ["cells", "flow", "observe"], function (tables, flow, 
   }
 
   // What a settled motion { period, points } sounds like where the mesh frequency is `meshHz`: { base, peak, rms } with
-  // either the harmonics { real, imag } of `base` Hz or `samples` that go round; null where it does not stay bounded.
+  // either the harmonics { real, imag } of `base` Hz or `samples` that go round; null where there is nothing to hear.
   function sound(state, { period, points }, meshHz) {
     if (!points.length) return null;
     const cells = tables.buildCells(state);
@@ -31,6 +31,7 @@ gearpair.define("sounds", ["cells", "flow", "observe"], function (tables, flow, 
   function tone(cells, start, period, meshHz) {
     const base = meshHz / period;
     const last = Math.floor(HIGHEST / base);
+    if (last === 0) return null;
     const count = powerOfTwo(Math.max(4096, 32 * last));
     const { force, status } = observe.record(cells, start, period, count);
     if (status !== flow.OK) return null;

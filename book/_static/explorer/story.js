@@ -17,13 +17,10 @@ gearpair.define(
     const SAME_SPEED = 1; // natural frequencies a second: how fast time runs in the picture
 
     const WORDS = {
-      none_drive: "the teeth stay together",
-      single_drive: "one flank is struck: it rattles",
-      double: "both flanks are struck: it clatters",
+      quiet: "the teeth stay together",
+      rattle: "one flank is struck: it rattles",
+      clatter: "both flanks are struck: it clatters",
     };
-    const NOUNS = { none_drive: "the quiet motion", single_drive: "the rattle", double: "the clatter" };
-    const noun = (impact) => NOUNS[impact] ?? "the motion";
-    const words = (impact) => WORDS[impact] ?? measures.IMPACT_NAMES[impact];
     const number = (value, digits = 2) => plotting.sign(Number(value.toPrecision(digits)));
 
     // The settled motion from (x, v) at a mesh frequency, the rest as in the baseline.
@@ -31,14 +28,13 @@ gearpair.define(
       const state = { ...states.DEFAULTS, mesh_frequency, x, v };
       const cells = tables.buildCells(state);
       const settled = settle.settle(cells, x, v, {});
-      if (!settled.points.length) return { state, settled, impact: null };
       const { low, high, force, period, points } = settled;
       const periods = period ? period * Math.max(1, Math.round(SHOWN / period)) : SHOWN;
       const recorded = observe.record(cells, flow.startAt(cells, points[0].x, points[0].v), periods, SAMPLES);
       const beginning = observe.record(cells, flow.startAt(cells, x, v), TRANSIENT, SAMPLES);
       return {
         state, settled, recorded, beginning, low, high,
-        impact: measures.impactState(low, high),
+        manner: low >= 1 ? "quiet" : low >= -1 ? "rattle" : "clatter", // the load holds it to the drive side
         loadFactor: measures.loadFactor(force, state.mean_force),
       }; // prettier-ignore
     }
@@ -54,8 +50,8 @@ gearpair.define(
         act: (story) => story.button("Push", () => story.show(found(SLOW))),
         verdict: (story, motion) =>
           apart(motion)
-            ? `Even so slowly ${words(motion.impact)}.`
-            : `Quiet: ${words(motion.impact)}. The largest tooth force is ${number(motion.loadFactor)} times the mean.`,
+            ? `Even so slowly ${WORDS[motion.manner]}.`
+            : `Quiet: ${WORDS[motion.manner]}. The largest tooth force is ${number(motion.loadFactor)} times the mean.`,
         done: () => true,
       },
       {
@@ -87,7 +83,7 @@ gearpair.define(
           const right = hitsTheOther(motion) === (story.answer === "Yes");
           const turns = `It turns back at X = ${number(motion.low)}, and the other flank is at −1`;
           const what = hitsTheOther(motion) ? "It does hit the other side" : turns;
-          return `${right ? "Right." : "Not so."} ${what}. In short, ${words(motion.impact)}.`;
+          return `${right ? "Right." : "Not so."} ${what}. In short, ${WORDS[motion.manner]}.`;
         },
         done: () => true,
       },
@@ -102,11 +98,11 @@ gearpair.define(
           story.button("Nudge", () => story.push(story.nudge.valueAsNumber));
         },
         verdict: (story, motion) => {
-          if (!story.pushed) return `It runs as before: ${words(motion.impact)}.`;
-          if (motion.impact === story.first().impact) return `It comes back to what it did: ${words(motion.impact)}. Push harder.`;
-          return `Nothing but a nudge has changed, and now ${words(motion.impact)}, with ${number(motion.loadFactor)} times the mean force. It stays so.`;
+          if (!story.pushed) return `It runs as before: ${WORDS[motion.manner]}.`;
+          if (motion.manner === story.first().manner) return `It comes back to what it did: ${WORDS[motion.manner]}. Push harder.`;
+          return `Nothing but a nudge has changed, and now ${WORDS[motion.manner]}, with ${number(motion.loadFactor)} times the mean force. It stays so.`;
         },
-        done: (story, motion) => story.pushed && motion.impact !== story.first().impact,
+        done: (story, motion) => story.pushed && motion.manner !== story.first().manner,
       },
       {
         title: "Listen to both",
@@ -118,7 +114,7 @@ gearpair.define(
           );
           story.listener.compare(...heard);
           both.forEach((motion, i) => {
-            story.button(`Hear ${noun(motion.impact)}`, () => {
+            story.button(`Hear the ${motion.manner}`, () => {
               story.listener.wake();
               story.listener.hear(heard[i]);
               story.show(motion);
@@ -126,13 +122,12 @@ gearpair.define(
           });
           story.button("Silence", () => story.listener.stop());
           const louder = story.listener.level(heard[1]) - story.listener.level(heard[0]);
-          story.louder = `${noun(both[1].impact)} is ${louder < 0 ? "softer" : "louder"} by ${Math.abs(louder).toFixed(0)} dB.`;
-          story.louder = story.louder[0].toUpperCase() + story.louder.slice(1);
+          story.louder = `The ${both[1].manner} is ${louder < 0 ? "softer" : "louder"} by ${Math.abs(louder).toFixed(0)} dB.`;
           story.show(both[1]);
         },
         verdict: (story) =>
           `${listen.told(story.listener, story.listener.heard)} ${story.louder} In the explorer: ` +
-          `${story.both().map((motion) => `<a href="${address(motion)}">${noun(motion.impact)}</a>`).join(", ")}.`,
+          `${story.both().map((motion) => `<a href="${address(motion)}">the ${motion.manner}</a>`).join(", ")}.`,
         done: () => false,
       },
     ];
@@ -151,6 +146,7 @@ gearpair.define(
         this.root = root;
         const fold = root.closest("details");
         if (fold && location.hash.length > 1) fold.open = false; // who follows a link to a motion comes for that
+        root.classList.add("gp");
         root.innerHTML = FRAME;
         this.find = (selector) => root.querySelector(selector);
         this.canvas = this.find("canvas");
@@ -253,7 +249,7 @@ gearpair.define(
         const { x, v } = this.first().settled.points[0];
         const motion = found(FAST, Number(x.toFixed(4)), Number((v + velocity).toFixed(4)));
         this.pushed = true;
-        if (motion.impact !== this.first().impact) this.other = motion;
+        if (motion.manner !== this.first().manner) this.other = motion;
         this.show(motion, true);
       }
 
