@@ -136,10 +136,10 @@ gearpair.define(
 <div class="gp-stage"><canvas role="img" aria-label="A tooth of the driving gear, above, in the space between two teeth of the driven gear, below"></canvas>
 <span class="gp-above">driving gear</span><span class="gp-below">driven gear</span>
 <span class="gp-side gp-left">coast side</span><span class="gp-side gp-right">drive side</span></div>
-<div class="gp-tell"><p class="gp-count"></p><p class="gp-title"></p><p class="gp-text"></p><div class="gp-act"></div>
+<div class="gp-tell"><p class="gp-count"></p><p class="gp-title" tabindex="-1"></p><p class="gp-text"></p><div class="gp-act"></div>
 <p class="gp-verdict" role="status"></p>
 <div class="gp-ways"><button type="button" data-way="-1">Back</button><button type="button" data-way="1">Next</button>
-<button type="button" data-way="still" aria-label="Stop the picture">Pause</button></div></div></div>`;
+<button type="button" data-way="still">Pause</button></div></div></div>`;
 
     class Story {
       constructor(root) {
@@ -156,7 +156,11 @@ gearpair.define(
         this.time = 0;
         for (const button of root.querySelectorAll("[data-way]")) {
           const way = button.dataset.way;
-          button.addEventListener("click", () => (way === "still" ? this.play(!this.playing) : this.go(this.step + Number(way))));
+          button.addEventListener("click", () => {
+            if (way === "still") return this.play(!this.playing);
+            this.go(this.step + Number(way));
+            this.find(".gp-title").focus({ preventScroll: true }); // from there Tab leads through the step
+          });
         }
         this.canvas.addEventListener("pointerdown", (event) => this.grip(event));
         const refresh = () => this.refresh();
@@ -274,7 +278,6 @@ gearpair.define(
       play(playing) {
         this.playing = playing;
         this.find("[data-way=still]").textContent = playing ? "Pause" : "Play";
-        this.find("[data-way=still]").setAttribute("aria-label", playing ? "Stop the picture" : "Let the picture move");
         if (!playing && this.arriving) this.show(this.motion);
       }
 
