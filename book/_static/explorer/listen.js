@@ -151,9 +151,7 @@ gearpair.define("listen", ["sounds", "plot"], function (sounds, { sign }) {
       `<label>Natural frequency of the mesh <input type="number" inputmode="decimal" min="${NATURAL.least}" max="${NATURAL.most}"` +
       ` step="any" value="${NATURAL.value}"> Hz</label>` +
       `<span class="gp-heard" role="status"></span>` +
-      `<p>Tooth force as sound, not your gearbox: shafts, bearings and housing are not in it. ${sounds.LOWEST} Hz to` +
-      ` ${sounds.HIGHEST / 1000} kHz; full scale is ${sounds.LOUD} mean forces, or the loudest heard so far. It follows the` +
-      ` sliders, and stops after ${LONGEST} s without a change, or with Esc.</p>`;
+      `<p>Tooth force as sound, not your gearbox. It stops after ${LONGEST} s without a change, or with Esc.</p>`;
     const [button, field, status] = ["button", "input", "[role=status]"].map((each) => element.querySelector(each));
     const listener = new Listener((heard) => {
       button.setAttribute("aria-pressed", String(heard !== null));
