@@ -21,7 +21,10 @@ from gearpair.study.cli import main
 from gearpair.study.errors import StudyError
 from tools.browser import chromium, serve
 
-LEFT_OUT = "a.headerlink, script, style, button, nav, .gp-pairs, .gp-minute, .gp-story, .toggle-hidden, .toctree-wrapper, svg.sd-octicon"
+LEFT_OUT = (
+    "a.headerlink, script, style, button, nav, .gp-pairs, .gp-minute, .gp-story, "
+    ".toggle-hidden, .toctree-wrapper, svg.sd-octicon"
+)
 EXPLORER = ".gp-explorer"  # moves, so paper gets a picture of it
 SHOWN = (
     "document.getElementById('explorer').explorer?.shown && !document.getElementById('explorer').explorer.diagram.busy"

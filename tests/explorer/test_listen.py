@@ -211,7 +211,11 @@ def test_it_stops_by_itself(page):
 
 def test_what_escapes_makes_no_sound(browser, tmp_path):
     with opened(browser) as go:
-        page = go(write_page(tmp_path).as_uri() + "#mesh_frequency=2&damping_ratio=0&a=0.5&b=0.5&contact_ratio=1.5&x=50")
+        page = go(
+            write_page(tmp_path).as_uri() + "#mesh_frequency=2&damping_ratio=0&a=0.5&b=0.5&contact_ratio=1.5&x=50"
+        )
         page.wait_for_function(SETTLED)
         page.click(BUTTON)
-        page.wait_for_function("document.querySelector('[data-part=listen] [role=status]').textContent.startsWith('Nothing')")
+        page.wait_for_function(
+            "document.querySelector('[data-part=listen] [role=status]').textContent.startsWith('Nothing')"
+        )

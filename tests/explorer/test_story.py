@@ -27,11 +27,14 @@ def truth(mesh_frequency: float, x: float = 1.0, v: float = 0.0) -> tuple[str, f
 def story(browser, tmp_path):
     """Opens the story of the first page."""
     text = (ROOT / "book" / "introduction.md").read_text(encoding="utf-8")
-    fragment = re.findall(r"```\{raw\} html\n(<link.*?)```", text, flags=re.DOTALL)[0].replace("../_static", STATIC.as_uri())
+    fragment = re.findall(r"```\{raw\} html\n(<link.*?)```", text, flags=re.DOTALL)[0].replace(
+        "../_static", STATIC.as_uri()
+    )
     path = tmp_path / "story.html"
     head = '<meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>Story</title>'
     path.write_text(
-        f'<!DOCTYPE html><html lang="en"><head>{head}</head><body style="margin:0">{fragment}</body></html>', encoding="utf-8"
+        f'<!DOCTYPE html><html lang="en"><head>{head}</head><body style="margin:0">{fragment}</body></html>',
+        encoding="utf-8",
     )
     with opened(browser) as go:
 
@@ -126,7 +129,9 @@ def test_every_claim_is_so_by_the_library(story):
     words, by = re.findall(r"The clatter is (louder|softer) by (\d+) dB", verdict(page))[0]
     assert (words, float(by)) == ("louder", pytest.approx(louder, abs=1.0))
     assert "not the noise of a gearbox" in page.inner_text(".gp-text")
-    links = page.eval_on_selector_all(".gp-verdict a", "(all) => all.map((link) => [link.textContent, link.getAttribute('href')])")
+    links = page.eval_on_selector_all(
+        ".gp-verdict a", "(all) => all.map((link) => [link.textContent, link.getAttribute('href')])"
+    )
     for text, address in links:
         values = [float(value) for value in re.findall(r"=([-\d.]+)", address)]
         assert f"the {truth(*values)[0]}" == text
