@@ -8,8 +8,8 @@ import pytest
 
 import gearpair as gp
 from tests.explorer.test_listen import CLATTER, RATTLE, by_the_library
-from tests.explorer.test_small_pairs import MODULES
 from tests.support import ROOT
+from tests.support.engines import MODULES
 from tests.support.explorer_pages import STATIC, opened, write_page
 
 STORY = "document.querySelector('.gp-story').story"

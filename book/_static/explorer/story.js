@@ -60,7 +60,7 @@ gearpair.define(
         act: (story) => {
           story.show(found(SLOW));
           const entry = { label: "Speed", min: SLOW, max: FASTER, step: 0.01, value: SLOW };
-          story.slider(entry, (value) => story.show(found(value)), (value) => number(value));
+          story.slider(entry, (value) => story.show(found(value)), (value) => `${number(value)} of the resonance`);
         },
         verdict: (story, motion) =>
           apart(motion)
@@ -89,7 +89,7 @@ gearpair.define(
       },
       {
         title: "Nudge it",
-        text: "The same speed and load. Give the moving tooth a push by hand, by the slider or on the picture:",
+        text: "The same speed and load. Give the moving tooth a push by hand: draw it aside in the picture, or choose here how hard.",
         act: (story) => {
           story.show(story.first());
           const entry = { label: "Push", min: -MOST, max: MOST, step: 0.1, value: NUDGE };
