@@ -8,7 +8,7 @@
   const SOUND = ["sounds", "listen"];
   const PARTS = {
     motion: [...MOTION, "worker", "sounds"],
-    explorer: [...MOTION, ...TEETH, ...PICTURES, ...SOUND, "story", "explorer"],
+    explorer: [...MOTION, ...TEETH, ...PICTURES, ...SOUND, "story", "challenges", "explorer"],
     pair: [...MOTION, ...TEETH, "pair"],
     story: [...MOTION, ...TEETH, ...SOUND, "story"],
   };
