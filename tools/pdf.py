@@ -22,7 +22,8 @@ from gearpair.study.errors import StudyError
 from tools.browser import chromium, serve
 
 LEFT_OUT = (
-    "a.headerlink, script, style, button, nav, .gp-pairs, .gp-drive, .toggle-hidden, .toctree-wrapper, svg.sd-octicon"
+    "a.headerlink, script, style, button, nav, .gp-drive, .gp-minute, .gp-story, "
+    ".toggle-hidden, .toctree-wrapper, svg.sd-octicon"
 )
 EXPLORER = ".gp-explorer"  # moves, so paper gets a picture of it
 SHOWN = (

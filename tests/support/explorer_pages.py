@@ -51,14 +51,6 @@ def write_page(folder: Path) -> Path:
     return page
 
 
-def write_pairs_page(folder: Path) -> Path:
-    """A page with the two small pairs of book/moving_pairs.html alone."""
-    page = folder / "pairs.html"
-    body = (ROOT / "book" / "moving_pairs.html").read_text(encoding="utf-8").replace("../_static", STATIC.as_uri())
-    page.write_text(f'<!DOCTYPE html><html lang="en"><title>Pairs</title><body>{body}</body></html>', encoding="utf-8")
-    return page
-
-
 def part(name: str) -> str:
     """An element of the explorer, as JavaScript."""
     return f"document.querySelector('[data-part={name}]')"

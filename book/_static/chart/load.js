@@ -1,5 +1,5 @@
 // Loads the speed chart's scripts in the order of their dependencies, after those of the explorer that it rests on:
-// <script src=".../explorer/load.js" data-part="pair" defer></script><script src=".../chart/load.js" defer></script>
+// <script src=".../explorer/load.js" data-part="teeth" defer></script><script src=".../chart/load.js" defer></script>
 (function (scope) {
   "use strict";
   const ENGINE = ["data", "numbers", "tooth", "pair", "body", "mesh", "drive", "standards", "motions", "verdict", "file"];

@@ -6,10 +6,12 @@
   const WORK = ["model", "branches", "worker", "follower"];
   const TEETH = ["state", "player", "view/plot", "view/teeth"];
   const PICTURES = ["view/history", "view/phase", "view/spectrum", "view/diagram", "controls", "readout"];
+  const SOUND = ["sounds", "listen"];
   const PARTS = {
-    motion: [...MOTION, ...WORK],
-    explorer: [...MOTION, ...WORK, ...TEETH, ...PICTURES, "explorer"],
-    pair: [...MOTION, "model", ...TEETH, "pair"],
+    motion: [...MOTION, ...WORK, "sounds"],
+    explorer: [...MOTION, ...WORK, ...TEETH, ...PICTURES, ...SOUND, "story", "challenges", "explorer"],
+    teeth: [...MOTION, ...TEETH], // for a page with pictures of its own
+    story: [...MOTION, ...WORK, ...TEETH, ...SOUND, "story"],
   };
   scope.gearpairParts = PARTS;
   if (typeof document === "undefined") return;
