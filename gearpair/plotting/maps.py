@@ -14,6 +14,7 @@ from matplotlib.image import AxesImage
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 from matplotlib.typing import ColorType
 
 from gearpair._checks import checked
@@ -32,13 +33,14 @@ HEIGHT = 4.6  # of a map of two parameters, in inches
 ENDS = ("vmin", "vmax")  # of the colours, which are told when an image is made
 LETTERS_OF_A_BAR = 44  # in a line beside it
 MOST_NAMED = 8  # motions that a legend names one by one
+FEW_DECADES = 1e3  # the largest over the smallest value of a logarithmic bar whose ticks are plain numbers
 LINGERING = Motion(Status.TRANSIENT)
 
-# The harsher the darker.
+# The harsher the darker; without impacts green.
 IMPACT_COLOURS: Mapping[str, str] = {
     ImpactState.NEVER_IN_CONTACT: "#FFFFFF",
-    ImpactState.NONE_DRIVE: "#F2F0F7",
-    ImpactState.NONE_COAST: "#DADAEB",
+    ImpactState.NONE_DRIVE: "#D5EBD0",
+    ImpactState.NONE_COAST: "#BFDDC0",
     ImpactState.SINGLE_DRIVE: "#BCBDDC",
     ImpactState.SINGLE_COAST: "#9E9AC8",
     ImpactState.DOUBLE: "#54278F",
@@ -220,6 +222,8 @@ def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     _image(result, _pixels(motions, {motion: colour_on(ax, motion) for motion in present}), ax, look)
     if legend:
         add_motion_legend(ax, present)
+        for dot in ax.get_legend().legend_handles:
+            dot.set_alpha(ax.images[-1].get_alpha())  # as pale as the map
     return ax
 
 
@@ -229,6 +233,7 @@ def quantity_map(
     quantity: str,
     ax: Axes | None = None,
     *,
+    smallest: float | None = None,
     largest: float | None = None,
     logarithmic: bool = False,
     **look: Any,
@@ -243,8 +248,9 @@ def quantity_map(
         Of `gearpair.parameter_map` with two axes (or of `gearpair.basins`), evenly spaced.
     quantity : str
         One of its variables.
-    largest : float, optional
-        Where the colours end; the largest value when not given.
+    smallest, largest : float, optional
+        Where the colours begin and end; the smallest value (on a logarithmic scale the smallest above 0) and the
+        largest when not given.
     logarithmic : bool
         Spread the colours over the logarithm.
 
@@ -258,11 +264,16 @@ def quantity_map(
     """
     values = result[quantity].values
     top = float(np.nanmax(values)) if largest is None else largest
-    low = float(np.nanmin(values[values > 0.0])) if logarithmic else float(np.nanmin(values))
+    low = float(np.nanmin(values[values > 0.0] if logarithmic else values)) if smallest is None else smallest
     norm = (LogNorm if logarithmic else Normalize)(low, top)
-    ax = _image(result, values, new_axes(ax, HEIGHT), look, norm=norm, cmap="cividis")
-    beyond = "max" if np.nanmax(values) > top else "neither"
-    ax.figure.colorbar(ax.images[0], ax=ax, label=_long_name(result, quantity), pad=0.01, extend=beyond)
+    ax = _image(result, values, new_axes(ax, HEIGHT), look, norm=norm, cmap="viridis")
+    below, above = bool(np.nanmin(values) < low), bool(np.nanmax(values) > top)
+    beyond = {(True, True): "both", (True, False): "min", (False, True): "max"}.get((below, above), "neither")
+    bar = ax.figure.colorbar(ax.images[0], ax=ax, label=_long_name(result, quantity), pad=0.01, extend=beyond)
+    if logarithmic and top / low < FEW_DECADES:
+        bar.ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        bar.ax.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        bar.ax.yaxis.set_minor_formatter(NullFormatter())
     return ax
 
 
