@@ -24,7 +24,15 @@ from gearpair.motion.names import IMPACT_NAMES, Motion, motions_of
 from gearpair.motion.settling import Status
 from gearpair.motion.steady import SteadyState
 from gearpair.plotting.paper import look_of
-from gearpair.plotting.style import add_legend, add_motion_legend, colour_on, motion_colour, new_axes, shade_backlash
+from gearpair.plotting.style import (
+    add_legend,
+    add_motion_legend,
+    colour_on,
+    legend_name,
+    motion_colour,
+    new_axes,
+    shade_backlash,
+)
 from gearpair.quantities import axis_label
 from gearpair.quantities import quantity as quantity_of
 
@@ -49,11 +57,11 @@ IMPACT_COLOURS: Mapping[str, str] = {
 
 
 def attractor_colours(result: xr.Dataset, ax: Axes | None = None) -> list[Colour]:
-    """One colour for each attractor of `gearpair.basins`: its motion's, paler for the second of a kind and so on."""
-    colours, seen = [], Counter[Motion]()
+    """One colour for each attractor of `gearpair.basins`: its motion's, paler for the second of a colour and so on."""
+    colours, seen = [], Counter[str]()
     for motion in attractor_motions(result):
-        shade = 0.6 ** seen[motion.kind]
-        seen[motion.kind] += 1
+        shade = 0.6 ** seen[legend_name(motion)]
+        seen[legend_name(motion)] += 1
         red, green, blue = (
             1.0 - shade * (1.0 - part) for part in to_rgb(colour_on(ax, motion) if ax else motion_colour(motion))
         )
