@@ -230,7 +230,8 @@ def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     _image(result, _pixels(motions, {motion: colour_on(ax, motion) for motion in present}), ax, look)
     if legend:
         add_motion_legend(ax, present)
-        for dot in ax.get_legend().legend_handles:
+        drawn = ax.get_legend()
+        for dot in filter(None, drawn.legend_handles if drawn else ()):
             dot.set_alpha(ax.images[-1].get_alpha())  # as pale as the map
     return ax
 
