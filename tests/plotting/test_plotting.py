@@ -290,7 +290,7 @@ def test_a_logarithmic_bar_has_plain_numbers_and_says_what_lies_beyond():
         for ends in ({"smallest": 1.0, "largest": 16.0}, {"smallest": 6.0}, {"smallest": 6.0, "largest": 16.0}, {})
     ]
     assert [bar.extend for bar in bars] == ["max", "min", "both", "neither"]  # the map has 5.0 to 17.1
-    assert (bars[0].vmin, bars[0].vmax) == (1.0, 16.0)
+    assert (bars[0].vmin, bars[0].vmax) == pytest.approx((1.0, 16.0))
     bars[0].ax.figure.canvas.draw()
     ticks = zip(bars[0].ax.get_yticks(), bars[0].ax.get_yticklabels(), strict=True)
     assert [text.get_text() for at, text in ticks if 1.0 <= at <= 16.0] == ["1", "2", "5", "10"]
