@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
+from matplotlib.transforms import ScaledTranslation
 
 from gearpair._checks import checked
 from gearpair.bifurcations.branches import Branch
@@ -18,6 +19,7 @@ from gearpair.plotting.style import INK, colour_on, new_axes
 from gearpair.quantities import axis_label
 
 MARKERS = {"fold": "^", "flip": "o", "grazing": "D"}
+BELOW = -0.36  # inches from a map down to its key: past the ticks and the name of the axis
 DASHES: dict[str, Any] = {"fold": "-", "flip": "--", "grazing": ":"}
 
 
@@ -62,7 +64,7 @@ def branches(
         for stable in (False, True):
             for k in range(branch.period):
                 shown = np.where(_runs(branch.stable, stable), branch.points[:, k, 0], np.nan)
-                style = {"linewidth": 1.4} if stable else {"linewidth": 0.6, "linestyle": (0, (3, 2)), "alpha": 0.8}
+                style = {"linewidth": 1.8} if stable else {"linewidth": 0.9, "linestyle": (0, (3.5, 1.8))}
                 ax.plot(branch.values, shown, **look_of(Line2D, look, color=colour, **style))
         for b in branch.bifurcations if markers else ():
             kinds.add(b.kind)
@@ -76,15 +78,19 @@ def branches(
 
 
 def add_key(ax: Axes, handles: list[Line2D]) -> None:
-    """A key inside the axes, beside the legend of motions that may stand above them."""
+    """A key inside the axes, beside the legend of motions that may stand above them; below the axes of a map."""
     if handles:
         names = [str(handle.get_label()) for handle in handles]
         looks: dict[str, Any] = {"loc": "upper right", "framealpha": 0.9, "edgecolor": "none", "frameon": True}
+        if ax.images:  # a map leaves no room free of data
+            below = ax.transAxes + ScaledTranslation(0.0, BELOW, ax.figure.dpi_scale_trans)
+            looks |= {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "bbox_transform": below}
         for n in range(len(handles), 0, -1):
             key = Legend(ax, handles, names, ncols=n, **looks)
             if key.get_window_extent().width < ax.bbox.width:
                 break
         ax.add_artist(key)
+        key.set_clip_on(False)  # so that a layout leaves room for it
 
 
 def _runs(stable: np.ndarray, wanted: bool) -> np.ndarray:
@@ -122,8 +128,8 @@ def bifurcation_curves(curves: Iterable[BifurcationCurve], ax: Axes | None = Non
     ax = new_axes(ax)
     drawn, given = list(curves), look_of(Line2D, look)
     for curve in drawn:
-        usual = {"color": colour_on(ax, periodic(curve.period)), "linestyle": DASHES[curve.kind], "linewidth": 1.1}
-        halo = [withStroke(linewidth=2.4, foreground=paper(ax))]
+        usual = {"color": colour_on(ax, periodic(curve.period)), "linestyle": DASHES[curve.kind], "linewidth": 1.3}
+        halo = [withStroke(linewidth=3.2, foreground=paper(ax))]
         ax.plot(*curve.values.T, **{"path_effects": halo, **usual, **given})
         ax.set(xlabel=axis_label(curve.parameters[0]), ylabel=axis_label(curve.parameters[1]))
     kinds = [kind for kind in DASHES if any(kind == curve.kind for curve in drawn)]

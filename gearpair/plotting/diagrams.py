@@ -332,7 +332,8 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
     """The shares of the attractors along a parameter, stacked, with a triangle at each tipping point.
 
     One filled step for each attractor, cut where its kind of motion changes and coloured by it; above them one for the
-    starts that are transients still; and a triangle at the top where an attractor has ended.
+    starts that are transients still; and a triangle at the top where an attractor has ended. Longer periods, which
+    share one colour, are striped.
 
     Examples
     --------
@@ -361,6 +362,7 @@ def attractor_shares(result: xr.Dataset, ax: Axes | None = None, *, legend: bool
             run = list(group)
             steps = np.repeat(edges[run[0] : run[-1] + 2], 2)[1:-1]
             usual: dict[str, Any] = {"edgecolor": "white", "linewidth": 0.4, "label": str(kind)}
+            usual["hatch"] = "////" if legend_name(kind) == "other periods" else None  # brown beside the black of chaos
             ends = np.repeat(below[run], 2), np.repeat(above[run], 2)
             ax.fill_between(steps, *ends, **look_of(PolyCollection, look, facecolor=colour_on(ax, kind), **usual))
             present.add(kind)

@@ -14,6 +14,7 @@ from matplotlib.image import AxesImage
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 from matplotlib.typing import ColorType
 
 from gearpair._checks import checked
@@ -23,7 +24,15 @@ from gearpair.motion.names import IMPACT_NAMES, Motion, motions_of
 from gearpair.motion.settling import Status
 from gearpair.motion.steady import SteadyState
 from gearpair.plotting.paper import look_of
-from gearpair.plotting.style import add_legend, add_motion_legend, colour_on, motion_colour, new_axes, shade_backlash
+from gearpair.plotting.style import (
+    add_legend,
+    add_motion_legend,
+    colour_on,
+    legend_name,
+    motion_colour,
+    new_axes,
+    shade_backlash,
+)
 from gearpair.quantities import axis_label
 from gearpair.quantities import quantity as quantity_of
 
@@ -32,13 +41,14 @@ HEIGHT = 4.6  # of a map of two parameters, in inches
 ENDS = ("vmin", "vmax")  # of the colours, which are told when an image is made
 LETTERS_OF_A_BAR = 44  # in a line beside it
 MOST_NAMED = 8  # motions that a legend names one by one
+FEW_DECADES = 1e3  # the largest over the smallest value of a logarithmic bar whose ticks are plain numbers
 LINGERING = Motion(Status.TRANSIENT)
 
-# The harsher the darker.
+# The harsher the darker; without impacts green.
 IMPACT_COLOURS: Mapping[str, str] = {
     ImpactState.NEVER_IN_CONTACT: "#FFFFFF",
-    ImpactState.NONE_DRIVE: "#F2F0F7",
-    ImpactState.NONE_COAST: "#DADAEB",
+    ImpactState.NONE_DRIVE: "#D5EBD0",
+    ImpactState.NONE_COAST: "#BFDDC0",
     ImpactState.SINGLE_DRIVE: "#BCBDDC",
     ImpactState.SINGLE_COAST: "#9E9AC8",
     ImpactState.DOUBLE: "#54278F",
@@ -47,11 +57,11 @@ IMPACT_COLOURS: Mapping[str, str] = {
 
 
 def attractor_colours(result: xr.Dataset, ax: Axes | None = None) -> list[Colour]:
-    """One colour for each attractor of `gearpair.basins`: its motion's, paler for the second of a kind and so on."""
-    colours, seen = [], Counter[Motion]()
+    """One colour for each attractor of `gearpair.basins`: its motion's, paler for the second of a colour and so on."""
+    colours, seen = [], Counter[str]()
     for motion in attractor_motions(result):
-        shade = 0.6 ** seen[motion.kind]
-        seen[motion.kind] += 1
+        shade = 0.6 ** seen[legend_name(motion)]
+        seen[legend_name(motion)] += 1
         red, green, blue = (
             1.0 - shade * (1.0 - part) for part in to_rgb(colour_on(ax, motion) if ax else motion_colour(motion))
         )
@@ -223,6 +233,9 @@ def period_map(result: xr.Dataset, ax: Axes | None = None, *, legend: bool = Tru
     _image(result, _pixels(motions, {motion: colour_on(ax, motion) for motion in present}), ax, look)
     if legend:
         add_motion_legend(ax, present)
+        drawn = ax.get_legend()
+        for dot in filter(None, drawn.legend_handles if drawn else ()):
+            dot.set_alpha(ax.images[-1].get_alpha())  # as pale as the map
     return ax
 
 
@@ -232,6 +245,7 @@ def quantity_map(
     quantity: str,
     ax: Axes | None = None,
     *,
+    smallest: float | None = None,
     largest: float | None = None,
     logarithmic: bool = False,
     **look: Any,
@@ -246,8 +260,9 @@ def quantity_map(
         Of `gearpair.parameter_map` with two axes (or of `gearpair.basins`), evenly spaced.
     quantity : str
         One of its variables.
-    largest : float, optional
-        Where the colours end; the largest value when not given.
+    smallest, largest : float, optional
+        Where the colours begin and end; the smallest value (on a logarithmic scale the smallest above 0) and the
+        largest when not given.
     logarithmic : bool
         Spread the colours over the logarithm.
 
@@ -261,11 +276,16 @@ def quantity_map(
     """
     values = result[quantity].values
     top = float(np.nanmax(values)) if largest is None else largest
-    low = float(np.nanmin(values[values > 0.0])) if logarithmic else float(np.nanmin(values))
+    low = float(np.nanmin(values[values > 0.0] if logarithmic else values)) if smallest is None else smallest
     norm = (LogNorm if logarithmic else Normalize)(low, top)
-    ax = _image(result, values, new_axes(ax, HEIGHT), look, norm=norm, cmap="cividis")
-    beyond = "max" if np.nanmax(values) > top else "neither"
-    ax.figure.colorbar(ax.images[0], ax=ax, label=_long_name(result, quantity), pad=0.01, extend=beyond)
+    ax = _image(result, values, new_axes(ax, HEIGHT), look, norm=norm, cmap="viridis")
+    below, above = bool(np.nanmin(values) < low), bool(np.nanmax(values) > top)
+    beyond = {(True, True): "both", (True, False): "min", (False, True): "max"}.get((below, above), "neither")
+    bar = ax.figure.colorbar(ax.images[0], ax=ax, label=_long_name(result, quantity), pad=0.01, extend=beyond)
+    if logarithmic and top / low < FEW_DECADES:
+        bar.ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        bar.ax.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        bar.ax.yaxis.set_minor_formatter(NullFormatter())
     return ax
 
 

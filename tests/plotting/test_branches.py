@@ -62,3 +62,17 @@ def test_a_period_map_has_one_pixel_for_each_motion():
             motion = gp.motion.motions_of(grid)[i, j]
             assert np.allclose(pixels[i, j], to_rgb(plotting.motion_colour(motion)))
     assert ax.get_xlim() == pytest.approx((0.45, 1.95)) and ax.get_ylim() == pytest.approx((0.025, 0.125))
+
+
+def test_over_a_map_the_key_stands_below_and_the_legend_is_as_pale(branch):
+    """No word covers a pixel, none is cut off, and the dots that name the colours are as pale as these."""
+    flip = next(b for b in branch.bifurcations if b.kind == "flip")
+    curve = gp.continue_bifurcation(flip, {"mesh_frequency": (0.7, 0.9), "damping_ratio": (0.015, 0.025)})
+    grid = gp.parameter_map(gp.Oscillator(), {"damping_ratio": [0.015, 0.025], "mesh_frequency": [0.7, 0.8, 0.9]})
+    ax = plotting.bifurcation_curves([curve], plotting.period_map(grid, alpha=0.5))
+    ax.figure.canvas.draw()
+    legend = ax.get_legend()
+    key = next(each for each in ax.get_children() if isinstance(each, Legend) and each is not legend)
+    box = key.get_window_extent()
+    assert box.y0 >= 0.0 and box.y1 <= ax.xaxis.label.get_window_extent().y0 + 1.0
+    assert {dot.get_alpha() for dot in legend.legend_handles} == {0.5}

@@ -280,3 +280,26 @@ def test_stiffness_wave_and_harmonics():
     assert any(np.all(np.asarray(line.get_ydata()) == wave.mean) for line in ax.lines)
     dots = plotting.harmonics(wave, 5).lines[0]
     assert np.array_equal(dots.get_ydata(), 2 * np.abs(wave.harmonics(5)[1:]))
+
+
+def test_a_logarithmic_bar_has_plain_numbers_and_says_what_lies_beyond():
+    axes = {"damping_ratio": [0.005, 0.05], "mesh_frequency": [0.7, 1.2, 1.6]}
+    grid = gp.parameter_map(gp.Oscillator(), axes, measures=True)
+    bars = [
+        plotting.quantity_map(grid, "load_factor", **ends, logarithmic=True).images[0].colorbar
+        for ends in ({"smallest": 1.0, "largest": 16.0}, {"smallest": 6.0}, {"smallest": 6.0, "largest": 16.0}, {})
+    ]
+    assert [bar.extend for bar in bars] == ["max", "min", "both", "neither"]  # the map has 5.0 to 17.1
+    assert (bars[0].vmin, bars[0].vmax) == pytest.approx((1.0, 16.0))
+    bars[0].ax.figure.canvas.draw()
+    ticks = zip(bars[0].ax.get_yticks(), bars[0].ax.get_yticklabels(), strict=True)
+    assert [text.get_text() for at, text in ticks if 1.0 <= at <= 16.0] == ["1", "2", "5", "10"]
+
+
+def test_longer_periods_share_a_colour_in_shades():
+    """Periods 5 and 7 have no colour of their own: in a plane of starts each has a shade."""
+    plane = gp.basins(gp.Oscillator(damping_ratio=0.001, mesh_frequency=1.95), np.linspace(-4, 4, 9), [0.0, 2.0])
+    names = [str(motion) for motion in gp.ensembles.attractor_motions(plane)]
+    colours = plotting.maps.attractor_colours(plane)
+    assert sum(name.split(",")[0] not in plotting.MOTION_COLOURS for name in names) > 1
+    assert len(set(colours)) == len(colours)
