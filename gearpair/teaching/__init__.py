@@ -7,14 +7,16 @@ that runs.
 
 from gearpair.teaching.answers import Unreadable, read_report, report
 from gearpair.teaching.drawings import Curve, Drawing, drawing
-from gearpair.teaching.marks import Marks
+from gearpair.teaching.marks import Item, Marks, as_number
 from gearpair.teaching.personal import check_student_id, personal_drive, personal_oscillator, personal_pair
 
 __all__ = [
     "Curve",
     "Drawing",
+    "Item",
     "Marks",
     "Unreadable",
+    "as_number",
     "check_student_id",
     "drawing",
     "personal_drive",
