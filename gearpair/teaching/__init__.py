@@ -1,6 +1,6 @@
 """What the course's assignments use: a gear pair for every student, and marks for what they answer.
 
-Students import `personal_pair`, `personal_oscillator` and `personal_drive`. The tests of an assignment count with
+Students import `personal_pair`, `personal_oscillator`, `personal_drive` and `personal_rig`. The tests of an assignment count with
 `Marks`. The grader takes the answers out of a student's notebook by `report` and `read_report`: plain data, nothing
 that runs.
 """
@@ -8,13 +8,22 @@ that runs.
 from gearpair.teaching.answers import Unreadable, read_report, report
 from gearpair.teaching.drawings import Curve, Drawing, drawing
 from gearpair.teaching.marks import Item, Marks, as_number
-from gearpair.teaching.personal import check_student_id, personal_drive, personal_oscillator, personal_pair
+from gearpair.teaching.personal import (
+    RigReport,
+    check_student_id,
+    personal_drive,
+    personal_oscillator,
+    personal_pair,
+    personal_rig,
+    true_rig,
+)
 
 __all__ = [
     "Curve",
     "Drawing",
     "Item",
     "Marks",
+    "RigReport",
     "Unreadable",
     "as_number",
     "check_student_id",
@@ -22,6 +31,8 @@ __all__ = [
     "personal_drive",
     "personal_oscillator",
     "personal_pair",
+    "personal_rig",
     "read_report",
     "report",
+    "true_rig",
 ]

@@ -160,6 +160,7 @@ class Marks:
         marks: float = 1.0,
         within: float = 2e-3,
         points: int = 20,
+        also: Iterable[Callable[[NDArray[np.float64]], ArrayLike]] = (),
         mistakes: Mapping[str, Callable[[NDArray[np.float64]], ArrayLike]] | None = None,
     ) -> None:
         """Mark one curve of a figure by the numbers behind it; the best of its curves counts.
@@ -176,6 +177,8 @@ class Marks:
             Largest error, relative to the largest true value.
         points : int
             That the curve must have in the range.
+        also : iterable of callable, optional
+            What other honest ways draw: right as well.
         mistakes : mapping of str to callable, optional
             What typical errors draw, each by the sentence that names its cause to the student.
         """
@@ -184,12 +187,13 @@ class Marks:
         if drawn is None:
             self._give(name, _instead_of("a figure (an Axes)", axes), 0.0, marks)
             return
-        shares = [_curve_share(curve, truth, over, within, points) for curve in drawn.curves]
+        rights = (truth, *also)
+        shares = [_curve_share(curve, right, over, within, points) for curve in drawn.curves for right in rights]
         best = max(shares, default=0.0)
         sentence = {1.0: "right", HALF: "right in part: look at its range, its number of points and its unit"}
         told = sentence.get(best, "no curve of the figure has the right values" if drawn.curves else "an empty figure")
         for hint, wrong in (mistakes or {}).items() if best == 0.0 else ():
-            if any(_curve_share(curve, wrong, over, within, points) for curve in drawn.curves):
+            if any(_curve_share(curve, wrong, _range_of(curve, over), within, 2) for curve in drawn.curves):
                 told += f": {hint}"
                 break
         self._give(name, told, best * marks, marks)
@@ -261,7 +265,15 @@ def _missing(answer: Any) -> bool:
 def _instead_of(wanted: str, given: Any) -> str:
     if given is None:
         return "no answer"
+    if isinstance(given, float) and not math.isfinite(given):
+        return f"{wanted} was asked for, not {given}"
     return f"{wanted} was asked for, not {given.kind if isinstance(given, Unreadable) else type(given).__name__}"
+
+
+def _range_of(curve: Curve, over: tuple[float, float]) -> tuple[float, float]:
+    """Where a curve is, whatever it is drawn over."""
+    x = curve.x[np.isfinite(curve.x)]
+    return (float(x.min()), float(x.max())) if x.size else over
 
 
 def _curve_share(

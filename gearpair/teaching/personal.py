@@ -4,9 +4,12 @@ import hashlib
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
+from gearpair.bifurcations import continue_orbit, periodic_orbit
 from gearpair.drive import GearDrive
+from gearpair.motion import steady_state
 from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
 from gearpair.teeth import SpurGear, SpurPair, mesh_stiffness
@@ -26,6 +29,24 @@ CHOICES: dict[str, Sequence[float]] = {
     "backlash_um": (60.0, 80.0, 100.0, 120.0),
 }
 MESH_FREQUENCY = 0.6
+SHEET_DAMPING, SHEET_ERROR = 0.05, 0.05  # what the data sheet of a rig guesses: a ratio, a share of the backlash
+
+
+@dataclass(frozen=True)
+class RigReport:
+    """What is known of a drive on a test rig.
+
+    Attributes
+    ----------
+    drive : GearDrive
+        As its data sheet has it: its damping and its transmission error are guesses.
+    jump_up_rpm, jump_down_rpm : float
+        Speeds of the pinion, to 1 rpm, at which the slow run-up and the slow coast-down jumped.
+    """
+
+    drive: GearDrive
+    jump_up_rpm: float
+    jump_down_rpm: float
 
 
 def check_student_id(student_id: object) -> str:
@@ -114,10 +135,44 @@ def personal_drive(student_id: str) -> GearDrive:
     return blank.with_oscillator(personal_oscillator(student_id))
 
 
-def _chosen(student_id: str, *names: str) -> dict[str, Any]:
+def personal_rig(student_id: str) -> RigReport:
+    """What a test rig with the gears of one student or group reports.
+
+    The drive on it is `personal_drive` with another damping and another error, by the id; the jumps are the folds of
+    its motion that keeps contact and of the one that does not, by continuation.
+
+    Examples
+    --------
+    >>> rig = personal_rig("ada")
+    >>> rig.jump_down_rpm < rig.jump_up_rpm < rig.drive.resonance_rpm
+    True
+    """
+    true = true_rig(student_id)
+    osc = true.oscillator().replace(mesh_frequency=0.545)
+    quiet = periodic_orbit(osc, *map(float, steady_state(osc).points[0]), 1)
+    branch = continue_orbit(quiet, "mesh_frequency", 0.5, 0.8)
+    folds = [each.value * true.resonance_rpm for each in branch.bifurcations if each.kind == "fold"]
+    sheet = true.replace(damping_ratio=SHEET_DAMPING, transmission_error_um=SHEET_ERROR * true.backlash_um)
+    return RigReport(sheet, float(round(max(folds))), float(round(min(folds))))
+
+
+def true_rig(student_id: str) -> GearDrive:
+    """The drive on the rig of `personal_rig`, with the damping and the error that it has.
+
+    Examples
+    --------
+    >>> 0.06 < true_rig("ada").damping_ratio < 0.08
+    True
+    """
+    other = _chosen(student_id, "damping_ratio", "error_amplitude", salt="/rig")
+    drive = personal_drive(student_id)
+    return drive.with_oscillator(drive.oscillator().replace(**other))
+
+
+def _chosen(student_id: str, *names: str, salt: str = "") -> dict[str, Any]:
     """One of the choices of each name, the same on every machine and with every version of every package."""
     who = check_student_id(student_id)
-    digests = {name: hashlib.sha256(f"gearpair/{name}/{who}".encode()).digest() for name in names}
+    digests = {name: hashlib.sha256(f"gearpair{salt}/{name}/{who}".encode()).digest() for name in names}
     return {name: CHOICES[name][int.from_bytes(d[:8], "big") % len(CHOICES[name])] for name, d in digests.items()}
 
 

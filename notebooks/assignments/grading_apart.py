@@ -124,6 +124,7 @@ def answers_wanted(tests):
     names = [node for node in nodes if isinstance(node, ast.Name)]
     set_here = {node.id for node in names if not isinstance(node.ctx, ast.Load)}
     set_here |= {node.arg for node in nodes if isinstance(node, ast.arg)} | set(GIVEN)
+    set_here |= {node.name for node in nodes if isinstance(node, ast.FunctionDef)}
     read = {node.id for node in names if isinstance(node.ctx, ast.Load)}
     return sorted(name for name in read - set_here if not hasattr(builtins, name))
 
