@@ -1,7 +1,7 @@
 """What the course's assignments use: a gear pair for every student, and marks for what they answer.
 
-Students import `personal_pair`, `personal_oscillator`, `personal_drive` and `personal_rig`. The tests of an assignment count with
-`Marks`. The grader takes the answers out of a student's notebook by `report` and `read_report`: plain data, nothing
+Students import what is personal: `personal_pair`, `personal_oscillator`, `personal_drive`, `personal_rig`,
+`personal_starts`. The tests of an assignment count with `Marks`. The grader takes the answers out of a student's notebook by `report` and `read_report`: plain data, nothing
 that runs.
 """
 
@@ -15,6 +15,7 @@ from gearpair.teaching.personal import (
     personal_oscillator,
     personal_pair,
     personal_rig,
+    personal_starts,
     true_rig,
 )
 
@@ -32,6 +33,7 @@ __all__ = [
     "personal_oscillator",
     "personal_pair",
     "personal_rig",
+    "personal_starts",
     "read_report",
     "report",
     "true_rig",

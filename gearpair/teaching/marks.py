@@ -13,6 +13,7 @@ from gearpair.teaching.answers import Unreadable
 from gearpair.teaching.drawings import Curve, drawing
 
 HALF = 0.5
+SHARP = 0.02  # relative error within which a typical mistake, or a power of ten, is taken for it
 COVERED = 0.95  # of the range asked for, to count as drawn
 AGREEING = 0.95  # of the points in it, to count as right: a point on a jump may be on either side
 
@@ -120,7 +121,8 @@ class Marks:
         if value is None:
             self._give(name, _instead_of("a number", given), 0.0, marks)
             return
-        hints = (hint for hint, wrong in (mistakes or {}).items() if _near(value, wrong, within))
+        exactly = min(within, SHARP)
+        hints = (hint for hint, wrong in (mistakes or {}).items() if _near(value, wrong, exactly))
         hint = next((f": {hint}" for hint in hints), "")
         if any(_near(value, right, within) for right in (truth, *also)):
             self._give(name, "right", marks, marks)
@@ -128,7 +130,7 @@ class Marks:
             self._give(name, "right, from your own earlier answers", marks, marks)
         elif _near(value, truth, nearly):
             self._give(name, f"close, but not right{hint}", HALF * marks, marks)
-        elif any(_near(value * 10.0**power, truth, within) for power in range(-12, 13)):
+        elif any(_near(value * 10.0**power, truth, exactly) for power in range(-12, 13)):
             self._give(name, f"right but for a power of ten, look at the unit{hint}", HALF * marks, marks)
         else:
             self._give(name, f"not the right number{hint}", 0.0, marks)

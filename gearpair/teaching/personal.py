@@ -7,6 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gearpair.bifurcations import continue_orbit, periodic_orbit
 from gearpair.drive import GearDrive
 from gearpair.motion import steady_state
@@ -29,6 +32,8 @@ CHOICES: dict[str, Sequence[float]] = {
     "backlash_um": (60.0, 80.0, 100.0, 120.0),
 }
 MESH_FREQUENCY = 0.6
+N_STARTS = 40
+PLASTIC = 1.324717957244746  # the root of x^3 = x + 1
 SHEET_DAMPING, SHEET_ERROR = 0.05, 0.05  # what the data sheet of a rig guesses: a ratio, a share of the backlash
 
 
@@ -167,6 +172,23 @@ def true_rig(student_id: str) -> GearDrive:
     other = _chosen(student_id, "damping_ratio", "error_amplitude", salt="/rig")
     drive = personal_drive(student_id)
     return drive.with_oscillator(drive.oscillator().replace(**other))
+
+
+def personal_starts(student_id: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Forty starts of one student or group, X in [-2, 2] and X' in [-1.5, 1.5]; each of shape (40,).
+
+    Examples
+    --------
+    >>> x, v = personal_starts("ada")
+    >>> x.shape, bool(abs(x).max() <= 2.0), bool(abs(v).max() <= 1.5)
+    ((40,), True, True)
+    """
+    digest = hashlib.sha512(f"gearpair/starts/{check_student_id(student_id)}".encode()).digest()
+    shift_x, shift_v = (int.from_bytes(digest[at : at + 8], "big") / 2**64 for at in (0, 8))
+    number = np.arange(N_STARTS)
+    # additive recurrence of the plastic number: evenly spread, and the same on every machine
+    x, v = ((shift + number / PLASTIC**power) % 1.0 for shift, power in ((shift_x, 1), (shift_v, 2)))
+    return 4.0 * x - 2.0, 3.0 * v - 1.5
 
 
 def _chosen(student_id: str, *names: str, salt: str = "") -> dict[str, Any]:
