@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 import yaml
 
+from gearpair.study.course_cli import course
 from gearpair.study.errors import StudyError
 
 if TYPE_CHECKING:
@@ -225,3 +226,6 @@ def book(context: click.Context, output: Path | None) -> None:
     from gearpair.study.book import build_book
 
     print(f"The book is at {build_book(_book(context), output)}")
+
+
+command.add_command(course)

@@ -18,22 +18,27 @@ from gearpair.teaching.personal import (
     personal_starts,
     true_rig,
 )
+from gearpair.teaching.questions import Question, answers_wanted, given_to_tests, questions
 
 __all__ = [
     "Curve",
     "Drawing",
     "Item",
     "Marks",
+    "Question",
     "RigReport",
     "Unreadable",
+    "answers_wanted",
     "as_number",
     "check_student_id",
     "drawing",
+    "given_to_tests",
     "personal_drive",
     "personal_oscillator",
     "personal_pair",
     "personal_rig",
     "personal_starts",
+    "questions",
     "read_report",
     "report",
     "true_rig",

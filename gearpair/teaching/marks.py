@@ -136,13 +136,21 @@ class Marks:
             self._give(name, f"not the right number{hint}", 0.0, marks)
 
     def same(
-        self, name: str, given: Any, truth: object, *, marks: float = 1.0, mistakes: Mapping[str, object] | None = None
+        self,
+        name: str,
+        given: Any,
+        truth: object,
+        *,
+        marks: float = 1.0,
+        mistakes: Mapping[str, object] | None = None,
+        shown: object = None,
     ) -> None:
         """Mark a word (whatever its capitals and blanks around it), a whole number or a truth value: right or not.
 
-        `mistakes` holds what typical errors give, each by the sentence that names its cause to the student.
+        `mistakes` holds what typical errors give, each by the sentence that names its cause to the student; `shown` is
+        what a sheet says for the truth, where this does not say it.
         """
-        self.items.append(Item(name, truth, marks))
+        self.items.append(Item(name, truth if shown is None else shown, marks))
         if given is None or isinstance(given, Unreadable):
             self._give(name, _instead_of("an answer", given), 0.0, marks)
             return

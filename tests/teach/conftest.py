@@ -27,7 +27,7 @@ REMEMBERED = ("identify", "run_up", "speed_chart")
 ASSIGNMENTS = Path(__file__).parents[2] / "notebooks" / "assignments"
 sys.path.insert(0, str(ASSIGNMENTS))
 
-from grading_apart import answers_wanted, run_tests  # noqa: E402
+from grading_apart import run_tests  # noqa: E402
 
 MADE = ("release", "submitted", "autograded", "feedback", "gradebook.db", "*.csv", "__pycache__", ".ipynb_checkpoints")
 
@@ -79,7 +79,7 @@ class Course:
         """Marks and sentences for a notebook of ours, run in this process: what is left out is kernel and nbgrader."""
         graded = {cell.id: cell for cell in self.source(name).cells if _settings(cell, "grade", "locked")}
         tests = {cell_id: cell.source for cell_id, cell in graded.items()}
-        wanted, variables, answers = answers_wanted(tests.values()), {}, {}
+        wanted, variables, answers = teaching.answers_wanted(tests.values()), {}, {}
         for cell in notebook.cells:
             if cell.id in tests:
                 answers[cell.id] = teaching.read_report(teaching.report(wanted, variables))
@@ -161,7 +161,7 @@ def courses(tmp_path_factory):
 
 def pytest_collection_modifyitems(items):
     """What takes longest begins first, and beside it what mostly waits, on a third process for two cores."""
-    order = ("test_class.py", "test_assignments.py", "test_endless.py", "test_hostile.py")
+    order = ("test_class.py", "test_assignments.py", "test_endless.py", "test_hostile.py", "test_adopting.py")
     items.sort(key=lambda item: order.index(item.path.name))
 
 
