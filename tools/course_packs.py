@@ -12,7 +12,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 ASSIGNMENTS = ROOT / "notebooks" / "assignments"
-MADE = shutil.ignore_patterns("release", "submitted", "autograded", "feedback", "*.db", "*.csv", "__pycache__", ".ipynb*")
+MADE = shutil.ignore_patterns(
+    "release", "submitted", "autograded", "feedback", "*.db", "*.csv", "__pycache__", ".ipynb*"
+)
 
 
 def main() -> None:

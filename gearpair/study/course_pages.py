@@ -17,7 +17,8 @@ from gearpair.plotting.formulas import formula_svg
 STYLE = """
 body { font: 11pt/1.45 Georgia, serif; max-width: 44em; margin: 2em auto; padding: 0 1em; color: #111; }
 h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 1.6em; break-after: avoid; }
-table { border-collapse: collapse; margin: .8em 0; width: 100%; } th, td { border: 1px solid #888; padding: .25em .5em; text-align: left; }
+table { border-collapse: collapse; margin: .8em 0; width: 100%; }
+th, td { border: 1px solid #888; padding: .25em .5em; text-align: left; }
 td.answer { width: 45%; height: 1.6em; } .lines { height: 8em; border: 1px solid #888; margin: .6em 0; }
 code { font-size: .9em; } .right { font-variant-numeric: tabular-nums; } section { break-inside: avoid; }
 @media print { body { margin: 0; max-width: none; } }
@@ -112,7 +113,12 @@ def expected_minutes(source: Path) -> float:
     """
     cells = nbformat.read(source, as_version=4).cells
     words = sum(len(cell.source.split()) for cell in cells if cell.cell_type == "markdown" and not _settings(cell))
-    code = [line for cell in cells if cell.cell_type == "code" and _settings(cell).get("solution") for line in solution(cell.source)]
+    code = [
+        line
+        for cell in cells
+        if cell.cell_type == "code" and _settings(cell).get("solution")
+        for line in solution(cell.source)
+    ]
     written = sum(_settings(cell).get("points", 0) for cell in cells if cell.cell_type == "markdown")
     return float(words / WORDS_A_MINUTE + MINUTES_A_LINE * len(code) + MINUTES_A_MARK * written)
 

@@ -83,7 +83,7 @@ def _counted(call: Callable[[], None], ready: Any) -> None:
     """Make a call, and tell of every kernel that it compiles, or finds compiled."""
     from numba.core import event
 
-    class Told(event.Listener):
+    class Told(event.Listener):  # type: ignore[misc]
         def on_start(self, event: Any) -> None:
             pass
 

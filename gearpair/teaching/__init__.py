@@ -1,8 +1,8 @@
 """What the course's assignments use: a gear pair for every student, and marks for what they answer.
 
-Students import what is personal: `personal_pair`, `personal_oscillator`, `personal_drive`, `personal_rig`,
-`personal_starts`. The tests of an assignment count with `Marks`. The grader takes the answers out of a student's notebook by `report` and `read_report`: plain data, nothing
-that runs.
+Students import what is personal: `personal_pair`, `personal_oscillator`, `personal_drive`, `personal_rig` and
+`personal_starts`. The tests of an assignment count with `Marks`; `questions` has the same tests say what is right. The
+grader takes the answers out of a student's notebook by `report` and `read_report`: plain data, nothing that runs.
 """
 
 from gearpair.teaching.answers import Unreadable, read_report, report

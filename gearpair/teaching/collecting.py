@@ -13,11 +13,11 @@ LARGEST = 50_000_000  # bytes of one notebook
 # The path of a notebook in an archive, by platform. `who` is the student's name, or the id; `file` what was handed in.
 PATTERNS = {
     # Ada Lovelace_1234567_assignsubmission_file_stiffness.ipynb, or a folder of that name with the file in it
-    "moodle": re.compile(r"(?:.*/)?(?P<who>[^/_]+)_\d+_assignsubmission_file_?/?(?P<file>[^/]+\.ipynb)"),
+    "moodle": r"(?:.*/)?(?P<who>[^/_]+)_\d+_assignsubmission_file_?/?(?P<file>[^/]+\.ipynb)",
     # lovelaceada_12345_67890_stiffness-1.ipynb, lovelaceada_LATE_12345_67890_stiffness.ipynb
-    "canvas": re.compile(r"(?:.*/)?(?P<who>[^/_]+)_(?:LATE_)?\d+_\d+_(?P<file>[^/]+\.ipynb)"),
+    "canvas": r"(?:.*/)?(?P<who>[^/_]+)_(?:LATE_)?\d+_\d+_(?P<file>[^/]+\.ipynb)",
     # al15/stiffness/stiffness.ipynb, al15/stiffness.ipynb, al15_stiffness.ipynb
-    "ids": re.compile(r"(?:.*/)?(?P<who>[^/]+?)(?:/[^/]+)?[/_](?P<file>[^/]+\.ipynb)"),
+    "ids": r"(?:.*/)?(?P<who>(?!ASSIGNMENT/)[^/]+)(?:/ASSIGNMENT/|/|_)(?P<file>ASSIGNMENT[^/]*\.ipynb)",
 }
 
 
@@ -58,7 +58,7 @@ def collect(archive: str | Path, assignment: str, students: Sequence[Student], c
     sentences = [f"{each.filename} is too large to be a notebook" for each in members if each.file_size > LARGEST]
     written: dict[str, str] = {}
     for name in sorted(found):
-        student, sentence = _owner(name, found[name], students)
+        student, sentence = _owner(name, found[name], assignment, students)
         if student is None:
             sentences.append(sentence)
             continue
@@ -72,28 +72,28 @@ def collect(archive: str | Path, assignment: str, students: Sequence[Student], c
     return Collected(tuple(sorted(written)), missing, tuple(sentences))
 
 
-def matched(name: str) -> tuple[str, str, str] | None:
+def matched(name: str, assignment: str) -> tuple[str, str, str] | None:
     """Platform, student and file of a path in an archive; None where no pattern knows it.
 
     Examples
     --------
-    >>> matched("Ada Lovelace_1234567_assignsubmission_file_/stiffness (1).ipynb")
+    >>> matched("Ada Lovelace_1234567_assignsubmission_file_/stiffness (1).ipynb", "stiffness")
     ('moodle', 'Ada Lovelace', 'stiffness (1).ipynb')
-    >>> matched("lovelaceada_LATE_12345_67890_stiffness-1.ipynb")
+    >>> matched("lovelaceada_LATE_12345_67890_stiffness-1.ipynb", "stiffness")
     ('canvas', 'lovelaceada', 'stiffness-1.ipynb')
     """
     for platform, pattern in PATTERNS.items():
-        match = pattern.fullmatch(str(PurePosixPath(name)))
+        match = re.fullmatch(pattern.replace("ASSIGNMENT", re.escape(assignment)), str(PurePosixPath(name)))
         if match:
             return platform, match["who"], match["file"]
     return None
 
 
-def _owner(name: str, content: bytes, students: Iterable[Student]) -> tuple[str | None, str]:
+def _owner(name: str, content: bytes, assignment: str, students: Iterable[Student]) -> tuple[str | None, str]:
     """Whose notebook it is, or why it is nobody's."""
     if not name.endswith(".ipynb"):
         return None, f"{name} is no notebook"
-    known = matched(name)
+    known = matched(name, assignment)
     if known is None:
         return None, f"{name} has a name of none of {', '.join(PATTERNS)}"
     who = known[1]

@@ -46,7 +46,8 @@ def write_marks(course: str | Path, students: Sequence[Student], output: str | P
             if (root / "autograded" / submission.student.id / name / f"{name}.ipynb").exists()
         }
     strangers = sorted({who for who, _ in graded} - {each.student_id for each in students})
-    rows, states = [], {name: [] for name, _ in assignments}
+    rows: list[list[str]] = []
+    states: dict[str, list[str]] = {name: [] for name, _ in assignments}
     for student in [*students, *map(Student, strangers)]:
         row: list[str] = [student.student_id, student.name]
         for name, most in assignments:

@@ -154,7 +154,8 @@ def personal_rig(student_id: str) -> RigReport:
     """
     true = true_rig(student_id)
     osc = true.oscillator().replace(mesh_frequency=0.545)
-    quiet = periodic_orbit(osc, *map(float, steady_state(osc).points[0]), 1)
+    x, v = steady_state(osc).points[0].tolist()
+    quiet = periodic_orbit(osc, x, v, 1)
     branch = continue_orbit(quiet, "mesh_frequency", 0.5, 0.8)
     folds = [each.value * true.resonance_rpm for each in branch.bifurcations if each.kind == "fold"]
     sheet = true.replace(damping_ratio=SHEET_DAMPING, transmission_error_um=SHEET_ERROR * true.backlash_um)

@@ -98,7 +98,8 @@ HONEST: dict[str, dict[str, list[Edit]]] = {
         ),
         "periods_by_a_loop": then(
             "meaning",
-            "n = 0\nwhile np.exp(-osc.damping_ratio * n * osc.period) > 1e-9:\n    n += 0.001\nperiods_for_nine_digits = n",
+            "n = 0\nwhile np.exp(-osc.damping_ratio * n * osc.period) > 1e-9:\n    n += 0.001\n"
+            "periods_for_nine_digits = n",
         ),
         "found_in_a_loop": then(
             "sweep", "first_doubled = next(z for z, p in zip(dampings, diagram.period.values) if p != 1)"
@@ -159,7 +160,8 @@ HONEST: dict[str, dict[str, list[Edit]]] = {
         ),
         "free_of_many_samples": then(
             "impacts",
-            "many = gp.trajectory(osc, *start, 1, samples_per_period=1000)\nfree_fraction = np.mean(np.abs(many.x) < 1)",
+            "many = gp.trajectory(osc, *start, 1, samples_per_period=1000)\n"
+            "free_fraction = np.mean(np.abs(many.x) < 1)",
         ),
         "speed_of_the_harder_side": then(
             "impacts", "largest_approach_speed = max(abs(v) for v, c in zip(hits.velocity, hits.contact) if c)"
@@ -223,7 +225,8 @@ HONEST: dict[str, dict[str, list[Edit]]] = {
         "torque_of_a_drive": then(
             "torque",
             "force = osc.mean_force * factors[loaded.impact_state.values == 'none_drive'].min()\n"
-            "heavier = drive.with_oscillator(osc.replace(mean_force=force))\nquiet_torque_nm = heavier.pinion_torque_nm",
+            "heavier = drive.with_oscillator(osc.replace(mean_force=force))\n"
+            "quiet_torque_nm = heavier.pinion_torque_nm",
         ),
         "torque_by_the_smallest_x": then(
             "torque", "quiet_torque_nm = factors[loaded.x_min.values >= 1].min() * drive.pinion_torque_nm"
@@ -476,7 +479,8 @@ WRONG: dict[str, dict[str, tuple[float, str, list[Edit]]]] = {
             "guess of the data sheet",
             then(
                 "identified",
-                "damping_ratio, error_um = drive.damping_ratio, drive.transmission_error_um\nfound = teaching.RigReport(drive, 0, 0)",
+                "damping_ratio, error_um = drive.damping_ratio, drive.transmission_error_um\n"
+                "found = teaching.RigReport(drive, 0, 0)",
             ),
         ),
         "peak_to_peak": (13.0, "peak to peak", then("identified", "error_um *= 2")),

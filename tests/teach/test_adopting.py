@@ -87,13 +87,14 @@ def test_an_archive_is_collected_graded_and_listed(course, class_list, here, tmp
         ("lovelaceada_1_2_stiffness.ipynb", ("canvas", "lovelaceada", "stiffness.ipynb")),
         ("ada/stiffness/stiffness.ipynb", ("ids", "ada", "stiffness.ipynb")),
         ("course/ada/stiffness.ipynb", ("ids", "ada", "stiffness.ipynb")),
+        ("ada_b_stiffness-2.ipynb", ("ids", "ada_b", "stiffness-2.ipynb")),
         ("ada_stiffness.ipynb", ("ids", "ada", "stiffness.ipynb")),
         ("stiffness.ipynb", None),
         ("Ada Lovelace_1_assignsubmission_file_stiffness.pdf", None),
     ],
 )
 def test_the_names_of_platforms_are_known(name, found):
-    assert matched(name) == found
+    assert matched(name, NAME) == found
 
 
 def test_sheets_hold_the_students_numbers_and_the_graders_answers(course, class_list, here, tmp_path, capsys):
@@ -133,7 +134,10 @@ def test_the_page_says_how_long_an_assignment_is_estimated_to_take():
     page = (ROOT / "book" / "teaching.md").read_text(encoding="utf-8")
     for name in NAMES:
         minutes = expected_minutes(ASSIGNMENTS / "source" / name / f"{name}.ipynb")
-        assert f"| `{name}` |" in page and f"| {round(minutes / 30) / 2:g} h |" in page.split(f"| `{name}` |")[1].split("\n")[0]
+        assert (
+            f"| `{name}` |" in page
+            and f"| {round(minutes / 30) / 2:g} h |" in page.split(f"| `{name}` |")[1].split("\n")[0]
+        )
 
 
 def test_the_students_pack_holds_no_solution_and_the_teachers_all(course, tmp_path):
