@@ -72,12 +72,12 @@ def given_to_tests(student_id: str) -> dict[str, Any]:
     return dict(zip(GIVEN, (np, gp, teaching, student_id), strict=True))
 
 
-def questions(source: str | Path, student_id: str) -> list[Question]:
+def questions(source: str | Path | io.StringIO, student_id: str) -> list[Question]:
     """The questions of an assignment with the answers that are right for one student, by its own tests.
 
     Parameters
     ----------
-    source : str or Path
+    source : str, Path or file open for reading
         The teacher's notebook, with the hidden tests. Its tests are run, nothing else.
     student_id : str
         One that `check_student_id` takes.
@@ -86,6 +86,16 @@ def questions(source: str | Path, student_id: str) -> list[Question]:
     -------
     list of Question
         In the order of the notebook.
+
+    Examples
+    --------
+    >>> from nbformat import v4
+    >>> test = "marks = teaching.Marks()\\nmarks.number('teeth', teeth, 27, within=0.1)"
+    >>> graded = {"nbgrader": {"grade": True, "points": 1}}
+    >>> cells = [v4.new_markdown_cell("## 1 Teeth"), v4.new_code_cell(test, metadata=graded)]
+    >>> path = io.StringIO(v4.writes(v4.new_notebook(cells=cells)))
+    >>> [(question.text, question.items[0].truth) for question in questions(path, "ada")]
+    [('## 1 Teeth', 27)]
     """
     cells = nbformat.read(source, as_version=4).cells
     tests = {cell.id: cell.source for cell in cells if _settings(cell).get("grade") and cell.cell_type == "code"}
