@@ -209,8 +209,8 @@ HONEST: dict[str, dict[str, list[Edit]]] = {
         "by_xarray": [
             (
                 "chart",
-                'axes.plot(speeds, chart.dte_peak_to_peak.sel(run=run), ".-"',
-                "chart.dte_peak_to_peak.sel(run=run).plot(ax=axes",
+                'axes.plot(speeds, chart.dte_peak_to_peak.sel(run=way), ".-"',
+                "chart.dte_peak_to_peak.sel(run=way).plot(ax=axes",
             )
         ],
         "torque_of_a_drive": then(
