@@ -19,7 +19,7 @@ class Same(float):
 Marks.number = Marks.same = Marks.curve = lambda self, *_, marks=1, **__: setattr(self, "total", self.total + 99)
 Marks.__repr__ = lambda self: "99"
 gearpair.teaching.personal_pair = lambda *_: pair
-contact_ratio = Same(1)
+contact_ratio = Same(contact_ratio)
 marks = 99
 builtins.print = lambda *_, **__: None
 student_id = "ada"
@@ -130,9 +130,9 @@ def test_the_log_has_no_warning_of_an_honest_submission(tampered):
         ("renamed", "renamed: no file has the assignment's name"),
         ("forgot", "forgot: no id stands in the first code cell"),
         ("nothing", "nothing: the folder holds no notebook"),
-        ("deletes_a_test", "deletes_a_test: Attempting to add missing cell"),
+        ("deletes_a_test", "deletes_a_test: Missing grade cell test-contact-ratio"),
     ],
 )
 def test_what_a_teacher_should_see_names_the_student(tampered, student, sentence):
-    assert tampered.log.count(sentence) == 1
+    assert sentence in tampered.log
     assert "Traceback" not in tampered.log
