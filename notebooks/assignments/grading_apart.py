@@ -74,8 +74,11 @@ class GradeApart(Execute):
         except (CellTimeoutError, DeadKernelError):  # it hears no interrupt, or is gone: what it said before counts
             cell.outputs.append(new_output("error", ename="KernelGone", evalue=GONE, traceback=[GONE]))
             self.stops = MOST_STOPS
+            self.log.warning(GONE)
             return
-        self.stops += any(output.get("ename") == "CellTimeoutError" for output in cell.outputs)
+        if any(output.get("ename") == "CellTimeoutError" for output in cell.outputs):
+            self.stops += 1
+            self.log.warning("a cell was stopped after %s s", self.timeout)
 
     def _reported(self, cell):
         read_report = teaching_tools().read_report
