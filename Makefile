@@ -5,6 +5,7 @@
 #   make test-quick   the tests that are not marked slow, in about a minute
 #   make teach        grade the whole course headless, in an environment of its own: reference solutions, mistakes,
 #                     hostile submissions, a class of forty
+#   make course       pack the course: gearpair-course-student.zip without solutions, gearpair-course-teacher.zip with them
 #   make pdf          build the book, then print it to _build/gearpair.pdf (needs a Chromium, see check-site)
 #   make check-site   build the book, then open every page and check it; needs Java, npm and a Chromium on the PATH (or
 #                     CHROMIUM=/path/to/it); SITE_ARGS="-k links" for some of the gates
@@ -142,7 +143,7 @@ check-wheel: $(READY)
 	@echo "The wheel works by itself: $$(ls dist)"
 
 # The course (notebooks/assignments) has an environment of its own, since nbgrader brings a notebook server.
-.PHONY: teach lock-teach
+.PHONY: teach course lock-teach
 TEACH_VENV := .venv-teach
 TEACH_READY := $(TEACH_VENV)/.ready
 TEACH_ARGS ?=
@@ -150,6 +151,9 @@ TEACH_ARGS ?=
 teach: $(TEACH_READY)
 	@$(TEACH_VENV)/bin/python -m pytest -o addopts= -p no:cacheprovider -n 3 --dist loadfile --no-loadscope-reorder \
 		tests/teach $(TEACH_ARGS)
+
+course: $(TEACH_READY)
+	@$(TEACH_VENV)/bin/python -m tools.course_packs
 
 $(TEACH_READY): requirements-teach.lock pyproject.toml
 	$(call environment,$(TEACH_VENV),requirements-teach.lock)

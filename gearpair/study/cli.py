@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 import yaml
 
+from gearpair.study.course_cli import course
 from gearpair.study.errors import StudyError
 
 if TYPE_CHECKING:
@@ -25,7 +26,34 @@ the study behind it:
   gearpair run impacts -p mean_force 0.3 --html
 """
 STOPPED = 130
-PATH: Any = click.Path(path_type=Path)
+
+
+class _Named(click.Path):
+    """A path with a name: an empty one would be taken for the directory it is in."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if value == "":
+            self.fail("a name is needed, got ''", param, ctx)
+        return super().convert(value, param, ctx)
+
+
+class _Command(click.Command):
+    """A command whose every wrong usage points to its own help."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        try:
+            return super().parse_args(ctx, args)
+        except click.UsageError as error:
+            error.ctx = error.ctx or ctx
+            raise
+
+
+class _Group(click.Group):
+    command_class = _Command
+    group_class = type  # a group within is of this class too
+
+
+PATH: Any = _Named(path_type=Path)
 
 
 def main(arguments: Sequence[str] | None = None, *, run: click.Command | None = None, name: str = "gearpair") -> int:
@@ -55,8 +83,8 @@ def _stopped_by_signals() -> Iterator[None]:
     """Let SIGTERM stop the command as Ctrl-C does, so that it clears up; further ones do not disturb it in that."""
 
     def stop(number: int, frame: FrameType | None) -> None:
-        for each in before:
-            signal.signal(each, signal.SIG_IGN)
+        for each in before:  # not SIG_IGN: of one that is on its way already Python would print a traceback
+            signal.signal(each, lambda *_: None)
         raise KeyboardInterrupt
 
     before = {each: signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)}
@@ -69,7 +97,7 @@ def _stopped_by_signals() -> Iterator[None]:
             signal.signal(each, handler)
 
 
-@click.group(epilog=EPILOG, no_args_is_help=False, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(cls=_Group, epilog=EPILOG, no_args_is_help=False, context_settings={"help_option_names": ["-h", "--help"]})
 @click.option("--root", type=PATH, metavar="DIR", help="The checkout; found from here upwards.")
 @click.pass_context
 def command(context: click.Context, root: Path | None) -> None:
@@ -203,3 +231,6 @@ def book(context: click.Context, output: Path | None) -> None:
     from gearpair.study.book import build_book
 
     print(f"The book is at {build_book(_book(context), output)}")
+
+
+command.add_command(course)

@@ -4,9 +4,15 @@ import hashlib
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from gearpair.bifurcations import continue_orbit, periodic_orbit
 from gearpair.drive import GearDrive
+from gearpair.motion import steady_state
 from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
 from gearpair.teeth import SpurGear, SpurPair, mesh_stiffness
@@ -26,6 +32,26 @@ CHOICES: dict[str, Sequence[float]] = {
     "backlash_um": (60.0, 80.0, 100.0, 120.0),
 }
 MESH_FREQUENCY = 0.6
+N_STARTS = 40
+PLASTIC = 1.324717957244746  # the root of x^3 = x + 1
+SHEET_DAMPING, SHEET_ERROR = 0.05, 0.05  # what the data sheet of a rig guesses: a ratio, a share of the backlash
+
+
+@dataclass(frozen=True)
+class RigReport:
+    """What is known of a drive on a test rig.
+
+    Attributes
+    ----------
+    drive : GearDrive
+        As its data sheet has it: its damping and its transmission error are guesses.
+    jump_up_rpm, jump_down_rpm : float
+        Speeds of the pinion, to 1 rpm, at which the slow run-up and the slow coast-down jumped.
+    """
+
+    drive: GearDrive
+    jump_up_rpm: float
+    jump_down_rpm: float
 
 
 def check_student_id(student_id: object) -> str:
@@ -114,10 +140,62 @@ def personal_drive(student_id: str) -> GearDrive:
     return blank.with_oscillator(personal_oscillator(student_id))
 
 
-def _chosen(student_id: str, *names: str) -> dict[str, Any]:
+def personal_rig(student_id: str) -> RigReport:
+    """What a test rig with the gears of one student or group reports.
+
+    The drive on it is `personal_drive` with another damping and another error, by the id; the jumps are the folds of
+    its motion that keeps contact and of the one that does not, by continuation.
+
+    Examples
+    --------
+    >>> rig = personal_rig("ada")
+    >>> rig.jump_down_rpm < rig.jump_up_rpm < rig.drive.resonance_rpm
+    True
+    """
+    true = true_rig(student_id)
+    osc = true.oscillator().replace(mesh_frequency=0.545)
+    x, v = steady_state(osc).points[0].tolist()
+    quiet = periodic_orbit(osc, x, v, 1)
+    branch = continue_orbit(quiet, "mesh_frequency", 0.5, 0.8)
+    folds = [each.value * true.resonance_rpm for each in branch.bifurcations if each.kind == "fold"]
+    sheet = true.replace(damping_ratio=SHEET_DAMPING, transmission_error_um=SHEET_ERROR * true.backlash_um)
+    return RigReport(sheet, float(round(max(folds))), float(round(min(folds))))
+
+
+def true_rig(student_id: str) -> GearDrive:
+    """The drive on the rig of `personal_rig`, with the damping and the error that it has.
+
+    Examples
+    --------
+    >>> 0.06 < true_rig("ada").damping_ratio < 0.08
+    True
+    """
+    other = _chosen(student_id, "damping_ratio", "error_amplitude", salt="/rig")
+    drive = personal_drive(student_id)
+    return drive.with_oscillator(drive.oscillator().replace(**other))
+
+
+def personal_starts(student_id: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Forty starts of one student or group, X in [-2, 2] and X' in [-1.5, 1.5]; each of shape (40,).
+
+    Examples
+    --------
+    >>> x, v = personal_starts("ada")
+    >>> x.shape, bool(abs(x).max() <= 2.0), bool(abs(v).max() <= 1.5)
+    ((40,), True, True)
+    """
+    digest = hashlib.sha512(f"gearpair/starts/{check_student_id(student_id)}".encode()).digest()
+    shift_x, shift_v = (int.from_bytes(digest[at : at + 8], "big") / 2**64 for at in (0, 8))
+    number = np.arange(N_STARTS)
+    # additive recurrence of the plastic number: evenly spread, and the same on every machine
+    x, v = ((shift + number / PLASTIC**power) % 1.0 for shift, power in ((shift_x, 1), (shift_v, 2)))
+    return 4.0 * x - 2.0, 3.0 * v - 1.5
+
+
+def _chosen(student_id: str, *names: str, salt: str = "") -> dict[str, Any]:
     """One of the choices of each name, the same on every machine and with every version of every package."""
     who = check_student_id(student_id)
-    digests = {name: hashlib.sha256(f"gearpair/{name}/{who}".encode()).digest() for name in names}
+    digests = {name: hashlib.sha256(f"gearpair{salt}/{name}/{who}".encode()).digest() for name in names}
     return {name: CHOICES[name][int.from_bytes(d[:8], "big") % len(CHOICES[name])] for name, d in digests.items()}
 
 

@@ -6,9 +6,10 @@ student's ever runs. The text of a test comes from the gradebook, and the studen
 """
 
 import ast
-import builtins
 import contextlib
 import io
+import logging
+import re
 import traceback
 
 from nbclient.exceptions import CellTimeoutError, DeadKernelError
@@ -24,7 +25,9 @@ def _report(names=%r):
     display({%r: report(names, globals())}, raw=True)
 _report()
 """
-GIVEN = ("np", "gp", "teaching", "student_id")  # what a test has beside the answers, see `given`
+FORGOTTEN = (
+    "no id stands in the first code cell, so there is nothing to mark: write %r there, and grade once more with --force"
+)
 STOPPED = "not run: a cell before this one ended the kernel or could not be stopped, or two were stopped"
 GONE = "the kernel died in this cell, or could not be stopped"
 REFUSED = "is not graded, give the folder another name"
@@ -45,7 +48,7 @@ class GradeApart(Execute):
             graded = {cell.name for cell in notebook.grade_cells if cell.cell_type == "code"}
             cells = [cell for cell in notebook.source_cells if cell.name in graded and cell.locked]
             self.tests = {cell.name: cell.source for cell in cells}
-        self.wanted = answers_wanted(self.tests.values())
+        self.wanted = teaching_tools().answers_wanted(self.tests.values())
         nb, resources = super().preprocess(nb, resources, *args, **kwargs)
         self._mark(nb)
         return nb, resources
@@ -71,16 +74,22 @@ class GradeApart(Execute):
         except (CellTimeoutError, DeadKernelError):  # it hears no interrupt, or is gone: what it said before counts
             cell.outputs.append(new_output("error", ename="KernelGone", evalue=GONE, traceback=[GONE]))
             self.stops = MOST_STOPS
+            self.log.warning(GONE)
             return
-        self.stops += any(output.get("ename") == "CellTimeoutError" for output in cell.outputs)
+        if any(output.get("ename") == "CellTimeoutError" for output in cell.outputs):
+            self.stops += 1
+            self.log.warning("a cell was stopped after %s s", self.timeout)
 
     def _reported(self, cell):
-        from gearpair.teaching import read_report
-
+        read_report = teaching_tools().read_report
         texts = [output.data[MIME] for output in cell.outputs if MIME in output.get("data", {})]
         answers = read_report(texts[-1]) if texts and isinstance(texts[-1], str) else {}
         typed = answers.pop("student_id", None)
-        if isinstance(typed, str) and typed.strip().lower() not in (self.student_id.lower(), self.typed.lower()):
+        if isinstance(typed, str) and not typed.strip():
+            if self.typed:
+                self.log.warning(FORGOTTEN, self.student_id)
+            self.typed = ""
+        elif isinstance(typed, str) and typed.strip().lower() not in (self.student_id.lower(), self.typed.lower()):
             self.typed = typed.strip()
             self.log.warning("the notebook of %s was worked on with the id %r", self.student_id, typed)
         return {name: answers.get(name) for name in self.wanted}
@@ -102,15 +111,43 @@ def checked_folder(student_id):
     return student_id
 
 
-def to_the_point(record):
-    """Leave out of the log what is said of every notebook, and the traceback of a sentence.
+NOISE = (
+    "Attribute 'checksum' for cell",  # a test always differs from what was handed out, and is put back
+    "There was an error processing assignment",  # the cause is told
+    "Please see the the above traceback",
+    "No notebooks found, did you forget",
+)
+CAUSES = {  # by what is found in what nbgrader says, in this order
+    "NotJSONError": "the file is no notebook, but broken or empty: ask for it again",
+    "ValidationError": "the file is no notebook that can be read: ask for it again",
+    "No notebooks found": "no file has the assignment's name: rename the notebook that is there",
+    "No notebooks were matched by": "the folder holds no notebook: not handed in",
+}
+of_whom = {"student": ""}  # whose notebook the log speaks of
 
-    A test always differs from what was handed out, by its hidden part, and is put back.
-    """
+
+def to_the_point(record):
+    """Let every warning name its student; leave out what is said of every notebook, and the traceback of a sentence."""
     said = record.getMessage()
-    if said.startswith("Traceback") and REFUSED in said:
-        record.msg, record.args = said[said.rindex("submitted/") :].strip(), ()
-    return "Attribute 'checksum' for cell" not in said
+    named = re.findall(r"student with ID '(.+?)'", said) or re.findall(r"[\\/]submitted[\\/]([^\\/]+)[\\/]", said)
+    if named:
+        of_whom["student"] = named[-1]
+    if record.levelno < logging.WARNING:
+        return True
+    if said.startswith(NOISE):
+        return False
+    if REFUSED in said:
+        sentence = said[said.rindex("submitted/") :].strip()
+    elif said.startswith("Skipping unknown notebook"):
+        name = re.split(r"[\\/]", said)[-1]
+        sentence = f"{name!r} is not read, for its name is not that of the assignment: rename it if it is to be graded"
+    else:
+        last = said.strip().splitlines()[-1] if said.startswith("Traceback") else said
+        sentence = next((cause for found, cause in CAUSES.items() if found in said), last)
+    who = of_whom["student"]
+    itself = not who or sentence.startswith((f"submitted/{who} ", f"the notebook of {who} "))
+    record.msg, record.args = sentence if itself else f"{who}: {sentence}", ()
+    return True
 
 
 def test_name(cell):
@@ -118,24 +155,16 @@ def test_name(cell):
     return cell.metadata.get("nbgrader", {}).get("grade_id")
 
 
-def answers_wanted(tests):
-    """The variables that tests take from the student: those they read, are not given and no test defines."""
-    nodes = [node for test in tests for node in ast.walk(ast.parse(test))]
-    names = [node for node in nodes if isinstance(node, ast.Name)]
-    set_here = {node.id for node in names if not isinstance(node.ctx, ast.Load)}
-    set_here |= {node.arg for node in nodes if isinstance(node, ast.arg)} | set(GIVEN)
-    read = {node.id for node in names if isinstance(node.ctx, ast.Load)}
-    return sorted(name for name in read - set_here if not hasattr(builtins, name))
+def teaching_tools():
+    """Imported where it is needed, since most of nbgrader's commands run no test and need not wait for it."""
+    from gearpair import teaching
+
+    return teaching
 
 
 def given(student_id):
-    """What every test has; imported here, since most of nbgrader's commands run no test and need not wait for it."""
-    import numpy as np
-
-    import gearpair as gp
-    from gearpair import teaching
-
-    return dict(zip(GIVEN, (np, gp, teaching, student_id), strict=True))
+    """What every test has beside the answers."""
+    return teaching_tools().given_to_tests(student_id)
 
 
 def run_tests(tests, answers, student_id):

@@ -1,5 +1,7 @@
 """The command line: what it prints, and one sentence for whatever is wrong."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import nbformat
@@ -170,7 +172,12 @@ def test_a_directory_without_a_book_is_named(tmp_path, capsys):
         ([], "gearpair: Missing command. See gearpair --help"),
         (["paint"], "gearpair: No such command 'paint'. See gearpair --help"),
         (["run"], "gearpair: Missing argument 'CHAPTER'. See gearpair run --help"),
-        (["run", "small", "-p", "a"], "gearpair: Option '-p' requires 2 arguments. See gearpair --help"),
+        (["run", "small", "-p", "a"], "gearpair: Option '-p' requires 2 arguments. See gearpair run --help"),
+        (["run", "small", "-o"], "gearpair: Option '-o' requires an argument. See gearpair run --help"),
+        (
+            ["run", "small", "-o", ""],
+            "gearpair: Invalid value for '-o' / '--output': a name is needed, got ''. See gearpair run --help",
+        ),
         (
             ["run", "small", "-p", "a=1", "-o", "out.ipynb"],
             "gearpair: Got unexpected extra argument (out.ipynb). See gearpair run --help",
@@ -202,3 +209,25 @@ def test_accept_stores_outputs_and_finds_nothing_to_do_the_second_time(small_boo
     for unstable in ("image/png", '"name": "stderr"', "papermill", str(small_book), "ipykernel_"):
         assert unstable not in text
     assert [cell.execution_count for cell in nbformat.reads(text, as_version=4).cells[1:]] == [1, 2, 3]
+
+
+BOTH_AT_ONCE = """
+import os, signal, sys, click
+from gearpair.study.cli import main
+
+@click.command()
+def two():
+    both = {signal.SIGINT, signal.SIGTERM}
+    signal.pthread_sigmask(signal.SIG_BLOCK, both)
+    for each in both:
+        os.kill(os.getpid(), each)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, both)
+
+sys.exit(main([], run=two))
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no signal can be held back there")
+def test_two_signals_at_once_stop_with_one_sentence():
+    done = subprocess.run([sys.executable, "-c", BOTH_AT_ONCE], capture_output=True, text=True)
+    assert (done.returncode, done.stderr.strip()) == (130, "gearpair: stopped")

@@ -18,5 +18,7 @@ def test_what_does_not_end_is_stopped_and_graded(courses):
     course = courses("endless", NAME)
     for student, (_, edit) in ENDLESS.items():
         course.submit(NAME, student, course.solution(NAME, student, edit))
-    course.nbgrader("autograde", NAME, "--GradeApart.timeout=20")
+    log = course.nbgrader("autograde", NAME, "--GradeApart.timeout=20")
     assert course.marks(NAME) == {student: marks for student, (marks, _) in ENDLESS.items()}
+    told = [line for line in log.splitlines() if "WARNING" in line or "ERROR" in line]
+    assert {student for student in ENDLESS if any(f"{student}: " in line for line in told)} == set(ENDLESS)

@@ -7,7 +7,7 @@ from nbformat.v4 import new_code_cell
 from tests.teach.answers import FULL, WRONG
 
 NAME = "stiffness"
-HONEST, MISTAKE = WRONG[NAME]["circular_pitch"]
+HONEST, _, MISTAKE = WRONG[NAME]["circular_pitch"]
 # What a grader might lean on, replaced after the student's honest first answers; the other answers stay what they are.
 PATCHES = """
 import builtins, gearpair.teaching
@@ -19,7 +19,7 @@ class Same(float):
 Marks.number = Marks.same = Marks.curve = lambda self, *_, marks=1, **__: setattr(self, "total", self.total + 99)
 Marks.__repr__ = lambda self: "99"
 gearpair.teaching.personal_pair = lambda *_: pair
-base_pitch_mm = Same(1)
+contact_ratio = Same(contact_ratio)
 marks = 99
 builtins.print = lambda *_, **__: None
 student_id = "ada"
@@ -48,6 +48,12 @@ def tampered(courses):
         submit(change.__name__, change)
     course.submit(NAME, "copycat", course.solution(NAME, "ada"))
     course.submit(NAME, "zoé müller", course.solution(NAME, "zoé müller"))
+    for student in ("cut-off", "renamed", "forgot", "nothing"):
+        course.submit(NAME, student, course.released(NAME))
+    path = course.root / "submitted"
+    (path / "cut-off" / NAME / f"{NAME}.ipynb").write_text('{"cells": [')
+    (path / "renamed" / NAME / f"{NAME}.ipynb").rename(path / "renamed" / NAME / f"{NAME} (1).ipynb")
+    (path / "nothing" / NAME / f"{NAME}.ipynb").unlink()
     # nbgrader refuses a cell that it did not hand out, and says so
     course.log = course.nbgrader("autograde", NAME, fails=True)
     return course
@@ -114,3 +120,19 @@ def test_the_log_has_no_warning_of_an_honest_submission(tampered):
     parts = tampered.log.split("[AutogradeApp | INFO] Converting notebook ")
     honest = [part for part in parts[1:] if "/honest/" in part.splitlines()[0]]
     assert len(honest) == 2 and not [part for part in honest if "warning" in part.lower()]
+
+
+@pytest.mark.parametrize(
+    ("student", "sentence"),
+    [
+        ("cut-off", "cut-off: the file is no notebook, but broken or empty: ask for it again"),
+        ("renamed", "renamed: 'stiffness (1).ipynb' is not read"),
+        ("renamed", "renamed: no file has the assignment's name"),
+        ("forgot", "forgot: no id stands in the first code cell"),
+        ("nothing", "nothing: the folder holds no notebook"),
+        ("deletes_a_test", "deletes_a_test: Missing grade cell test-contact-ratio"),
+    ],
+)
+def test_what_a_teacher_should_see_names_the_student(tampered, student, sentence):
+    assert sentence in tampered.log
+    assert "Traceback" not in tampered.log

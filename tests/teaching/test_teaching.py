@@ -197,6 +197,37 @@ def test_before_the_tests_a_cell_says_only_what_is_missing(capsys):
     assert "every answer asked for is there" in repr(marks)
 
 
+def test_a_mistake_is_named_and_what_follows_from_it_counts(capsys):
+    marks = teaching.Marks()
+    marks.number("a", 57.3, 1.0, mistakes={"that is in degrees": 57.3})
+    marks.number("b", 114.6, 2.0, follows=(lambda a: 2 * a, 57.3))
+    marks.number("c", 0.0, 2.0, follows=(lambda a: 0 * a, 57.3))  # nothing follows from nothing
+    marks.number("d", 5.0, 2.0, follows=(lambda a: 1 / a, 0.0))
+    marks.number("e", 2.0, 1.0, also=[2.0])
+    marks.same("f", 3, 2, mistakes={"of both": 3})
+    assert marks.total == 2.0
+    said = capsys.readouterr().out.splitlines()
+    assert said[0].endswith("that is in degrees (0 of 1)") and said[5].endswith("of both (0 of 1)")
+    assert [item.truth for item in marks.items] == [1.0, 2.0, 2.0, 2.0, 1.0, 2]
+
+
+def test_an_empty_picture_is_no_answer():
+    fig, axes = plt.subplots()
+    marks = teaching.Marks()
+    marks.expect(axes=axes)
+    plt.close(fig)
+    assert repr(marks) == "0"
+
+
+def test_the_rig_of_everybody_is_identified():
+    """The damping and the error that its report hides, to the one per cent that the assignment asks for."""
+    for student in STUDENTS[:3]:
+        rig, true = teaching.personal_rig(student), teaching.true_rig(student)
+        found = gp.design.identify(rig.drive, rig.jump_up_rpm, rig.jump_down_rpm)
+        assert found.damping_ratio == pytest.approx(true.damping_ratio, rel=5e-3)
+        assert found.transmission_error_um == pytest.approx(true.transmission_error_um, rel=5e-3)
+
+
 CHAPTERS = [path for path in sorted((ROOT / "notebooks").glob("*.ipynb")) if path.stem != "library"]
 
 
