@@ -209,7 +209,7 @@ def test_nothing_moves_while_scrolled_away(explorer):
     time = page.evaluate(f"{EXPLORER}.time")
     page.evaluate("new Promise((done) => setTimeout(done, 200))")
     assert page.evaluate(f"{EXPLORER}.time") == time
-    page.evaluate("scrollTo(0, 0)")
+    page.evaluate(f"{part('teeth')}.scrollIntoView()")
     page.wait_for_function(f"{EXPLORER}.time > {time}")
 
 
