@@ -51,10 +51,6 @@ class Evidence(NamedTuple):
     lasting: NDArray[np.float64]  # see `gearpair._flow.states.Known`
     leads_to: NDArray[np.int64]  # (sets, attractors) how many motions that left a set went where
 
-    def __repr__(self) -> str:
-        """One line."""
-        return f"Evidence(on {len(self.settled.status)} attractors, {len(self.leads_to)} chaotic sets)"
-
 
 @equal_by_value
 @dataclass(frozen=True, repr=False)

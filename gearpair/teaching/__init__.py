@@ -18,7 +18,7 @@ from gearpair.teaching.personal import (
     personal_starts,
     true_rig,
 )
-from gearpair.teaching.questions import Question, answers_wanted, given_to_tests, questions
+from gearpair.teaching.question_bank import Question, answers_wanted, given_to_tests, questions
 
 __all__ = [
     "Curve",
