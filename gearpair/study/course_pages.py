@@ -33,7 +33,7 @@ def sheet(source: Path, student_id: str) -> str:
     own = own_numbers(setup_of(source), student_id)
     numbers = "".join(_row([escape(name), f"{value:.6g}"]) for name, value in own.items())
     parts = [*head, f"<h2>Your numbers</h2><table>{numbers}</table>"]
-    for question in teaching.question_bank(source, student_id):
+    for question in teaching.questions(source, student_id):
         rows = "".join(_row([f"<code>{escape(item.name)}</code>", ""], answer=True) for item in _asked(question))
         rest = [item for item in question.items if item not in _asked(question)]
         figure = "<p><i>Hand in the figure with this sheet.</i></p>" if rest else ""
@@ -44,7 +44,7 @@ def sheet(source: Path, student_id: str) -> str:
 
 def marking_sheet(source: Path, students: Sequence[str]) -> str:
     """The page for who marks: the right numbers of every student with what counts as right, and the rubrics."""
-    answers = {student: teaching.question_bank(source, student) for student in students}
+    answers = {student: teaching.questions(source, student) for student in students}
     first = next(iter(answers.values()))
     parts = [f"<h1>Marking: {escape(source.stem)}</h1>"]
     for k, question in enumerate(first):

@@ -122,7 +122,7 @@ def test_sheets_hold_the_students_numbers_and_the_graders_answers(course, class_
 def test_the_questions_of_a_sheet_are_those_of_the_grader(name):
     """Each test records what it marks, worth what the gradebook says; every formula can be set."""
     source = ASSIGNMENTS / "source" / name / f"{name}.ipynb"
-    found = teaching.question_bank(source, "grace")
+    found = teaching.questions(source, "grace")
     assert sum(question.points for question in found) == 20
     for question in found:
         assert bool(question.rubric) != bool(question.items)
