@@ -25,7 +25,7 @@ def fallbacks(notebook):
     for cell in notebook.cells:
         if cell.cell_type == "markdown":
             for place in GLUED.finditer(cell.source):
-                before, text = re.sub(r"\s+", " ", cell.source[: place.start()])[-60:], glued[place[1]]
+                before, text = re.sub(r"\s+", " ", cell.source[: place.start()])[-60:], glued.get(place[1], "")
                 lost = NOT_FOUND.search(text) or (text == "None" and not re.search(r"(^|[.:;!?*(] ?)$", before))
                 if lost or (text in NO_PLACE and BEFORE_A_PLACE.search(before)):
                     found.append(f"{before}{text}")

@@ -233,7 +233,7 @@ CHAPTERS = [path for path in sorted((ROOT / "notebooks").glob("*.ipynb")) if pat
 
 @pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
 def test_a_chapter_can_be_taught_from(path):
-    """Goals at its head, a summary or a verdict, two exercises at least; their solutions folded, with an executed cell."""
+    """Goals at its head, a summary or a verdict, two exercises at least; solutions folded, with an executed cell."""
     cells = nbformat.read(path, as_version=4).cells
     text = "\n".join(cell.source for cell in cells)
     (goals,) = (cell.source for cell in cells[:4] if "```{admonition} What you will learn" in cell.source)
