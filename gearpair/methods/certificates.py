@@ -11,13 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_count, checked, plain
-from gearpair._cores import aside
 from gearpair._equality import equal_by_value
 from gearpair._flow.closed_form import DEGREE, REACH, TERMS, evaluate_jerk
 from gearpair._flow.event_search import MAX_STEPS, MONOTONE, ROUNDING, certified_step
-from gearpair._flow.records import SEGMENT_COLUMNS, SPAN, STARTS, Segments
-from gearpair._flow.walk import EVENT_UNDECIDED, Details, walk
-from gearpair.motion.trajectories import WATCHED, check_start, raise_unless_ok
+from gearpair._flow.records import SPAN, STARTS
+from gearpair._flow.walk import EVENT_UNDECIDED
+from gearpair.motion.trajectories import check_start, raise_unless_ok, segment_rows
 from gearpair.oscillator import Oscillator
 from gearpair.table import Table
 
@@ -185,14 +184,7 @@ def segments(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> list[Se
     """
     x, v = check_start(x, v)
     n_periods = check_count("n_periods", n_periods)
-    rows = np.empty((0, SEGMENT_COLUMNS))
-    for _ in range(2):  # once to count the segments, once to list them
-        counts = np.zeros(1, np.int64)
-        details = Details(segments=Segments(rows, counts))
-        arguments = (osc.cells, x, v, n_periods, np.empty(TERMS), None, None, details)
-        status, _x, _v = aside(walk, *arguments, periods=n_periods * osc.mesh_periods * WATCHED)
-        raise_unless_ok(status, n_periods * osc.mesh_periods)
-        rows = np.empty((int(counts[0]), SEGMENT_COLUMNS)) if len(rows) == 0 else rows
+    rows, _ = segment_rows(osc, x, v, n_periods)
     rows[:, [STARTS, SPAN]] *= osc.mesh_periods
     return [
         Segment(start, width, int(region), row[-TERMS:], rest, fourth, crossing if crossing >= 0.0 else None)

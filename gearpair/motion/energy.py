@@ -8,13 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._checks import check_count, checked
-from gearpair._cores import aside
 from gearpair._equality import equal_by_value
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.measures import NODES, WEIGHTS
-from gearpair._flow.records import CROSSING, REGION, REST, SEGMENT_COLUMNS, SPAN, STARTS, Segments
-from gearpair._flow.walk import Details, walk
-from gearpair.motion.trajectories import WATCHED, check_start, raise_unless_ok
+from gearpair._flow.records import CROSSING, REGION, REST, SPAN, STARTS
+from gearpair.motion.trajectories import check_start, segment_rows
 from gearpair.oscillator import Oscillator
 
 Array = NDArray[np.float64]
@@ -96,7 +94,7 @@ def energy_balance(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> E
     at_once = max(1, AT_ONCE // osc.mesh_periods)
     states, works = [], []
     for done in range(0, n_periods, at_once):
-        rows, after = _segments(osc, x, v, min(at_once, n_periods - done))
+        rows, after = segment_rows(osc, x, v, min(at_once, n_periods - done))
         found = _accounts(osc, rows)
         states.append(found[0])
         works.append(found[1])
@@ -128,18 +126,6 @@ def _accounts(osc: Oscillator, rows: Array) -> tuple[Array, Array]:
     begins = np.searchsorted(middle, np.arange(round(starts[-1] + 0.5)))
     states = np.column_stack([first[begins], series[begins, 1] / width[begins]])
     return states, np.add.reduceat(works, begins, axis=1)
-
-
-def _segments(osc: Oscillator, x: float, v: float, n_periods: int) -> tuple[Array, tuple[float, float]]:
-    """Every segment of the motion, a row each as `Segments` has them, and the state at the end."""
-    rows = np.empty((0, SEGMENT_COLUMNS))
-    for _ in range(2):  # once to count the segments, once to list them
-        counts = np.zeros(1, np.int64)
-        arguments = (osc.cells, x, v, n_periods, np.empty(TERMS), None, None, Details(segments=Segments(rows, counts)))
-        status, *end = aside(walk, *arguments, periods=n_periods * osc.mesh_periods * WATCHED)
-        raise_unless_ok(status, n_periods * osc.mesh_periods)
-        rows = np.empty((int(counts[0]), SEGMENT_COLUMNS)) if len(rows) == 0 else rows
-    return rows, (end[0], end[1])
 
 
 def _sums(series: Array, places: Array) -> Array:

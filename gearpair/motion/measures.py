@@ -114,7 +114,9 @@ def measure_columns(rows: NDArray[np.float64], mean_forces: NDArray[np.float64])
         columns[f"{side}_impulse"] = rows[:, at.IMPULSE + i]
         columns[f"{side}_share"] = rows[:, at.SHARE + i]
         columns[f"{side}_force"] = rows[:, at.FORCE + i]
-    columns["flight_share"] = np.clip(1.0 - columns["drive_share"] - columns["coast_share"], 0.0, 1.0)
+    apart = (rows[:, at.LOWEST] < 1.0) & (rows[:, at.HIGHEST] > -1.0)  # else rounding would pass for flight
+    flight = np.clip(1.0 - columns["drive_share"] - columns["coast_share"], 0.0, 1.0)
+    columns["flight_share"] = np.where(apart, flight, 0.0)
     columns["load_factor"] = _ratio(np.maximum(columns["drive_force"], columns["coast_force"]), np.abs(mean_forces))
     columns["x_mean"], columns["x_rms"] = rows[:, at.MEAN], rows[:, at.RMS]
     columns["peak_to_peak"] = rows[:, at.HIGHEST] - rows[:, at.LOWEST]

@@ -16,12 +16,14 @@ from gearpair._equality import equal_by_value
 from gearpair._flow.cells import Cells
 from gearpair._flow.closed_form import TERMS
 from gearpair._flow.observe import record
+from gearpair._flow.records import SEGMENT_COLUMNS, Segments
 from gearpair._flow.walk import (
     ESCAPED,
     EVENT_UNDECIDED,
     MAX_EVENTS_PER_PERIOD,
     OK,
     TOO_MANY_EVENTS,
+    Details,
     walk,
     walk_starts,
 )
@@ -276,3 +278,18 @@ def raise_unless_ok(status: int, periods: int) -> None:
         )
     if status != OK:
         raise RuntimeError(CAPPED[status])
+
+
+def segment_rows(
+    osc: Oscillator, x: float, v: float, n_periods: int
+) -> tuple[NDArray[np.float64], tuple[float, float]]:
+    """Every segment of the motion over `n_periods` base periods, a row each as `Segments` has them, and its end."""
+    rows = np.empty((0, SEGMENT_COLUMNS))
+    for _ in range(2):  # once to count the segments, once to list them
+        counts = np.zeros(1, np.int64)
+        details = Details(segments=Segments(rows, counts))
+        arguments = (osc.cells, x, v, n_periods, np.empty(TERMS), None, None, details)
+        status, *end = aside(walk, *arguments, periods=n_periods * osc.mesh_periods * WATCHED)
+        raise_unless_ok(status, n_periods * osc.mesh_periods)
+        rows = np.empty((int(counts[0]), SEGMENT_COLUMNS)) if len(rows) == 0 else rows
+    return rows, (end[0], end[1])
