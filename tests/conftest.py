@@ -1,4 +1,4 @@
-"""The order of the tests, and a small book to break."""
+"""The order of the tests, a browser, and a small book to break."""
 
 import os
 import shutil
@@ -6,8 +6,10 @@ from collections import Counter
 
 import pytest
 
+from gearpair.study.errors import StudyError
 from tests.support import ROOT
 from tests.support.notebooks import MEAN, write_notebook
+from tools.browser import chromium
 
 # By hand, with packages that the other tests do without: `make check-site` names the site that it checks.
 collect_ignore = ["teeth/finite_elements"] if "GEARPAIR_SITE" in os.environ else ["teeth/finite_elements", "site"]
@@ -22,6 +24,16 @@ def pytest_collection_modifyitems(items):
     slow = Counter(item.path for item in items if item.get_closest_marker("slow"))
     first = {name: place for place, name in enumerate(FIRST)}
     items.sort(key=lambda item: (first.get(item.path.name, len(first)), -slow[item.path]))
+
+
+@pytest.fixture(scope="module")  # while it lives, nothing else in the process can use asyncio
+def browser():
+    """A browser for the pages of one module; without one its tests are skipped."""
+    try:
+        with chromium() as started:
+            yield started
+    except StudyError as error:
+        pytest.skip(str(error))
 
 
 @pytest.fixture

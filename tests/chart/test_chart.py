@@ -10,7 +10,7 @@ from gearpair.drive_file import read_drive_file
 from gearpair.parameters import check_parameters
 from gearpair.study.drive_answer import chart_speeds
 from gearpair.teeth import GearBlank
-from tests.support.chart_pages import CHART, run
+from tests.support.engines import CHART, run_in_chart
 from tools import chart_data
 
 DEFAULTS = {
@@ -64,7 +64,7 @@ def close(found: Any, expected: Any, most: float) -> None:
 @pytest.mark.parametrize("change", CHANGES, ids=range(len(CHANGES)))
 def test_forty_speeds_of_a_drawing(change):
     state = DEFAULTS | change
-    answer = run(DRAW, {"state": state, "count": 40, "nStarts": 3})
+    answer = run_in_chart(DRAW, {"state": state, "count": 40, "nStarts": 3})
     drive = drive_of(state)
     speeds = np.array(answer["chart"]["speeds"])
     chart = design.speed_chart(drive, speeds, n_starts=3, locate_jumps=False)
@@ -120,7 +120,7 @@ def test_refusals_are_the_chapter_s(change):
     state = DEFAULTS | change
     with pytest.raises(ValueError) as refusal:
         check_parameters({name: state[name] for name in CHAPTER})
-    assert run(REFUSE, [state]) == [str(refusal.value)]
+    assert run_in_chart(REFUSE, [state]) == [str(refusal.value)]
 
 
 def test_what_may_stand_in_a_field():
@@ -128,10 +128,10 @@ def test_what_may_stand_in_a_field():
       const { read, FIELDS } = gearpair.use("chart/drive");
       return texts.map((text) => read(FIELDS.find((field) => field.name === name), text));
     }"""
-    assert run(read, ["module_mm", [" 2.5 ", "1e-3", ".5", "-3.", "2,5", "0x10", "", "1_0"]]) == [
+    assert run_in_chart(read, ["module_mm", [" 2.5 ", "1e-3", ".5", "-3.", "2,5", "0x10", "", "1_0"]]) == [
         *(2.5, 1e-3, 0.5, -3.0, "2,5", "0x10", None, "1_0")
     ]  # fmt: skip
-    assert run(REFUSE, [DEFAULTS | {"module_mm": None}]) == ["module_mm is needed (module)"]
+    assert run_in_chart(REFUSE, [DEFAULTS | {"module_mm": None}]) == ["module_mm is needed (module)"]
 
 
 def test_numbers_are_written_as_python_writes_them():
@@ -142,7 +142,7 @@ def test_numbers_are_written_as_python_writes_them():
       return values.map((x) => [repr(x), general(x), general(x, 3), fixed(x, 0), fixed(x, 2)]);
     }"""
     written = [[repr(x), f"{x:g}", f"{x:.3g}", f"{x:.0f}", f"{x:.2f}"] for x in values]
-    for theirs, ours in zip(run(write, values), written, strict=True):
+    for theirs, ours in zip(run_in_chart(write, values), written, strict=True):
         assert theirs[:3] == ours[:3]
         if 0.0 <= float(ours[3]) < 1e21 and not ours[0].startswith("-"):  # beyond, no number of the page
             assert theirs == ours
@@ -158,7 +158,7 @@ FILE = """(state) => {
 @pytest.mark.parametrize("change", [*CHANGES, {"highest_rpm": 2500.0, "damping_ratio": 1e-05}], ids=str)
 def test_pair_yml_brings_the_drive_back(change, tmp_path):
     state = DEFAULTS | change
-    made = run(FILE, state)
+    made = run_in_chart(FILE, state)
     assert made["back"] == {"state": state, "complaints": []}
     path = tmp_path / "pair.yml"
     path.write_text(made["yaml"], encoding="utf-8")
@@ -172,7 +172,7 @@ def test_pair_yml_brings_the_drive_back(change, tmp_path):
 
 def test_an_address_by_hand():
     parse = '(hash) => gearpair.use("chart/file").parse(hash)'
-    answer = run(parse, "#module_mm=0&teeth=3&gear_teeth=71&backlash=thickness")
+    answer = run_in_chart(parse, "#module_mm=0&teeth=3&gear_teeth=71&backlash=thickness")
     assert answer["state"] == DEFAULTS | {"gear_teeth": 71, "backlash": "thickness"}
     assert answer["complaints"][0] == "module_mm must be a finite number above 0, got 0.0. 3 is taken."
     assert answer["complaints"][1].startswith("There is no “teeth” on this page")

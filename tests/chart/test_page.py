@@ -4,8 +4,8 @@ import pytest
 
 from gearpair import GearDrive
 from gearpair.drive_file import read_drive_file
-from tests.support.chart_pages import CHART, write_page
-from tests.support.explorer_pages import opened
+from tests.support.engines import CHART
+from tests.support.explorer_pages import opened, write_page
 
 PAGE = "document.getElementById('drive-chart').page"
 WITHOUT_WORKERS = "delete globalThis.Worker"
@@ -19,7 +19,7 @@ INKED = """(name) => {
 @pytest.fixture
 def chart(browser, tmp_path):
     """Opens the page at a hash, a stage of its work done."""
-    path = write_page(tmp_path)
+    path = write_page(tmp_path, "drive")
     with opened(browser) as go:
 
         def open_at(hash: str = "", stage: int = 0, width: int = 1300, before: str = "", **media: str):

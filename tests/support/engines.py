@@ -1,4 +1,4 @@
-"""The explorer's modules run by node and in a browser, whichever there are: a function of some JSON, and its answer."""
+"""The modules of the explorer and of the speed chart run by node and in a browser, whichever there are: a function of some JSON, and its answer."""
 
 from __future__ import annotations
 
@@ -15,26 +15,36 @@ import gearpair as gp
 from tests.support.explorer_pages import STATIC, opened
 
 MODULES = STATIC / "explorer"
+CHART = STATIC / "chart"
 NODE = """
-const folder = process.argv[1];
+const [, folder, chart] = process.argv;
 require(`${folder}/load.js`);
 for (const name of gearpairParts.motion) require(`${folder}/${name}.js`);
+if (chart) {
+  require(`${chart}/load.js`);
+  for (const name of gearpairChart.engine) require(`${chart}/${name}.js`);
+}
 const { source, data } = JSON.parse(require("fs").readFileSync(0, "utf8"));
 process.stdout.write(JSON.stringify((0, eval)(`(${source})`)(data)));
 """
 
 
-def run_in_node(source: str, data: Any) -> Any:
+def run_in_node(source: str, data: Any, *, chart: bool = False) -> Any:
     """``source(data)``, `source` a JavaScript function that may use ``gearpair``."""
     node = shutil.which("node")
     if node is None:
         pytest.skip("no node: install nodejs, or leave it to the browser")
     result = subprocess.run(
-        [node, "-e", NODE, str(MODULES)], input=json.dumps({"source": source, "data": data}),
+        [node, "-e", NODE, str(MODULES), *[str(CHART)] * chart], input=json.dumps({"source": source, "data": data}),
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert result.returncode == 0, result.stderr
     return json.loads(result.stdout)
+
+
+def run_in_chart(source: str, data: Any) -> Any:
+    """The same with the modules of the speed chart."""
+    return run_in_node(source, data, chart=True)
 
 
 def run_in_chromium(browser: Any, source: str, data: Any) -> Any:

@@ -1,4 +1,4 @@
-"""The explorer's page without the book's theme, for tests in a browser and by hand."""
+"""The pages that compute, without the book's theme, for tests in a browser and by hand."""
 
 import re
 from collections.abc import Callable, Iterator
@@ -37,14 +37,14 @@ def opened(browser: Any) -> Iterator[Callable[..., Any]]:
         context.close()
 
 
-def write_page(folder: Path) -> Path:
-    """The raw HTML of book/explorer.md as a page of its own, beside the scripts where they are."""
-    text = (ROOT / "book" / "explorer.md").read_text(encoding="utf-8")
+def write_page(folder: Path, name: str = "explorer") -> Path:
+    """The raw HTML of a page of the book as a page of its own, beside the scripts where they are."""
+    text = (ROOT / "book" / f"{name}.md").read_text(encoding="utf-8")
     (fragment,) = re.findall(r"```\{raw\} html\n(.*?)```", text, flags=re.DOTALL)
     fragment = fragment.replace("../_static", STATIC.as_uri())
-    page = folder / "explorer.html"
+    page = folder / f"{name}.html"
     page.write_text(
-        f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>Explorer</title>'
+        f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
         f'<meta name="viewport" content="width=device-width"></head><body>{fragment}</body></html>',
         encoding="utf-8",
     )

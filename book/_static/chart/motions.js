@@ -2,8 +2,8 @@
 // bear in each. gearpair/design/charts.py, loads.py and found.py.
 gearpair.define(
   "chart/motions",
-  ["cells", "flow", "settle", "observe", "chart/data", "chart/drive"],
-  function (tables, flow, settling, observe, data, { SAMPLES, oscillatorAt }) {
+  ["cells", "flow", "settle", "observe", "verdict", "chart/data", "chart/drive"],
+  function (tables, flow, settling, observe, { impactState }, data, { SAMPLES, oscillatorAt }) {
     const CHAOTIC_PERIODS = 200; // over which a motion without a period is measured
     const WATCH = 20000; // mesh periods that it is watched for where time allows
     const SAME_ORBIT = 1e-6;
@@ -14,27 +14,12 @@ gearpair.define(
     function settled(cells, start, watch) {
       const motion = flow.startAt(cells, start.x, start.v);
       const options = { ...data.settle, watch: watch ? WATCH : 0 };
-      let found = run(settling.settling(cells, motion, options));
-      let periods = found.lasted ?? settling.transientPeriods(cells) + options.exponentPeriods;
-      const open = found.period === null && found.points.length > 0;
-      if (watch && open && found.lasted === undefined && cells.dampingRatio > 0) {
-        // an engine that does not watch by itself
-        found = run(settling.settling(cells, motion, { ...options, transient: WATCH }));
-        periods += WATCH + options.exponentPeriods;
-      }
+      const found = run(settling.settling(cells, motion, options));
+      const periods = found.lasted ?? settling.transientPeriods(cells) + options.exponentPeriods;
       const { status, period, points } = found;
       const bounded = points.length > 0;
       const impact = bounded ? impactState(found.low, found.high) : "";
       return { status, period, points, impact, periods, force: found.force, end: bounded ? { x: motion.x, v: motion.v } : null };
-    }
-
-    // The impact state from the extremes of X, as in gearpair.impact_state.
-    function impactState(low, high) {
-      if (low >= 1) return "none_drive";
-      if (high <= -1) return "none_coast";
-      if (low >= -1 && high >= 1) return "single_drive";
-      if (low < -1 && high > 1) return "double";
-      return low <= -1 ? "single_coast" : "never_in_contact";
     }
 
     function run(work) {

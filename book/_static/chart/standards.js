@@ -1,6 +1,6 @@
 // What is usually taken: ISO 6336-1's dynamic factor, method B, and the linear, time-invariant response.
 // gearpair/teeth/iso6336.py, gearpair/design/dynamic_factor.py and linear.py.
-gearpair.define("chart/standards", ["chart/data", "chart/numbers", "chart/drive"], function (data, { general }, { levelAt }) {
+gearpair.define("chart/standards", ["measures", "chart/data", "chart/numbers", "chart/drive"], function ({ transform }, data, { general }, { levelAt }) {
   const [MAIN_RESONANCE, SUPERCRITICAL] = [1.15, 1.5];
   const N_SAMPLES = 4096; // over a mesh period
 
@@ -74,7 +74,7 @@ gearpair.define("chart/standards", ["chart/data", "chart/numbers", "chart/drive"
         re[n] = 2 * ((a * c + b * d) / square);
         im[n] = 2 * ((b * c - a * d) / square);
       }
-      transform(re, im);
+      transform(im, re); // the sum over e^(+2 pi i n k / N): the two parts change places
       let largest = -Infinity;
       for (let i = 0; i < N_SAMPLES; i++) largest = Math.max(largest, mean_force + re[i] + (levels[i] - 1) * mean_force);
       return largest / mean_force;
@@ -92,31 +92,6 @@ gearpair.define("chart/standards", ["chart/data", "chart/numbers", "chart/drive"
       });
     }
     return [re, im];
-  }
-
-  // The sum of re + i im over e^(+2 pi i n k / N), in place (Cooley and Tukey, 1965).
-  function transform(re, im) {
-    const n = re.length;
-    for (let i = 1, j = 0; i < n; i++) {
-      let bit = n >> 1;
-      for (; j & bit; bit >>= 1) j ^= bit;
-      j ^= bit;
-      if (i < j) [re[i], re[j], im[i], im[j]] = [re[j], re[i], im[j], im[i]];
-    }
-    for (let length = 2; length <= n; length *= 2) {
-      const half = length / 2;
-      for (let k = 0; k < half; k++) {
-        const [c, s] = [Math.cos((2 * Math.PI * k) / length), Math.sin((2 * Math.PI * k) / length)];
-        for (let i = k; i < n; i += length) {
-          const a = re[i + half] * c - im[i + half] * s;
-          const b = re[i + half] * s + im[i + half] * c;
-          re[i + half] = re[i] - a;
-          im[i + half] = im[i] - b;
-          re[i] += a;
-          im[i] += b;
-        }
-      }
-    }
   }
 
   return { isoFactors, linearFactors };

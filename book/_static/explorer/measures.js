@@ -60,5 +60,5 @@ gearpair.define("measures", [], function () {
     }
   }
 
-  return { loadFactor, multipliers, spectrum };
+  return { loadFactor, multipliers, spectrum, transform };
 });
