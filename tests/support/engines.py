@@ -1,4 +1,4 @@
-"""The modules of the explorer and of the speed chart run by node and in a browser, whichever there are: a function of some JSON, and its answer."""
+"""The modules of the explorer and of the speed chart, by node and in a browser: a function of some JSON, its answer."""
 
 from __future__ import annotations
 
