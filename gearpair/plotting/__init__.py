@@ -56,7 +56,7 @@ from gearpair.plotting.motions import gallery, phase_portrait, poincare_section,
 from gearpair.plotting.passages import order_map, passage_factor, passage_path, shock_margins
 from gearpair.plotting.service import fold_curves, rattling_share
 from gearpair.plotting.speed_chart import CHANGES, dynamic_factors, load_map, rattle, tooth_loads, tornado
-from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, motion_colour
+from gearpair.plotting.style import MOTION_COLOURS, STYLE, add_motion_legend, bare, motion_colour
 from gearpair.plotting.survivors import survival_curve, survival_curves
 from gearpair.plotting.teeth import (
     compliance_stack,
@@ -77,6 +77,7 @@ __all__ = [
     "add_motion_legend",
     "attractor_points",
     "attractor_shares",
+    "bare",
     "basins",
     "bifurcation_curves",
     "bifurcation_diagram",

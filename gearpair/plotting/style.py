@@ -171,6 +171,23 @@ def name_rows(ax: Axes, names: Iterable[object], parameter: str) -> None:
     ax.set(xlabel=axis_label(parameter), ylim=(len(texts) - 0.5, -0.5))
 
 
+def bare(ax: Axes) -> Axes:
+    """The Axes without ticks, words and legends, for a picture that is seen at the size of a stamp.
+
+    Examples
+    --------
+    >>> import gearpair as gp
+    >>> ax = bare(gp.plotting.stiffness_wave(gp.Oscillator().stiffness))
+    >>> ax.get_xlabel(), len(ax.get_xticks())
+    ('', 0)
+    """
+    ax.set(xticks=[], yticks=[], xlabel="", ylabel="", title="")
+    for legend in [ax.get_legend(), *ax.figure.legends]:
+        if legend is not None:
+            legend.remove()
+    return ax
+
+
 def new_axes(ax: Axes | None, height: float | None = None) -> Axes:
     """`ax`, or the only axes of a new figure in the book's style."""
     if ax is not None:

@@ -87,6 +87,8 @@ def readable(notebook: nbformat.NotebookNode, book: Book) -> nbformat.NotebookNo
     names = _names(notebook, book)
     cells = []
     for cell in notebook.cells:
+        if "remove-cell" in cell.metadata.get("tags", []):  # for other pages of the book
+            continue
         cells.append(cell)
         if cell.cell_type == "markdown":
             cell.source = _as_text(cell.source, names)

@@ -162,7 +162,7 @@ IMAGES = {
     *("load_map", "order_map", "period_map", "quantity_map"),
 }
 BY_STATE = {"range_strips", "dynamic_factors"}  # whose words stand on bars, which are as light in every style
-NO_PICTURES = {"add_motion_legend", "motion_colour", "per_width"}
+NO_PICTURES = {"add_motion_legend", "bare", "motion_colour", "per_width"}
 
 
 @pytest.fixture(autouse=True)
