@@ -58,6 +58,7 @@ def pages(small_book):
         figure = {"figure": {"name": f"fig-{label}", "caption": "As {numref}`fig-other` has it."}}
         notebook.cells.append(new_code_cell(draws, metadata={"mystnb": figure, "tags": ["hide-input"]}))
         if name == "small":
+            notebook.cells.append(new_code_cell("'a stamp'", metadata={"tags": ["remove-cell"]}))
             notebook.cells.append(new_markdown_cell(TEXT))
             for block in ("{exercise} One\n:label: ex-one\n\nDo.\n", "{solution-start} ex-one\n", "{solution-end}\n"):
                 notebook.cells.append(new_markdown_cell(f"```{block}```"))
@@ -88,6 +89,7 @@ def test_a_run_shows_its_numbers_and_names(pages, tmp_path):
         "**How this page was made**",
     ):
         assert words in text
+    assert not [cell for cell in notebook.cells if "stamp" in cell.source]
     folded = [cell for cell in notebook.cells if cell.metadata.get("jupyter", {}).get("source_hidden")]
     assert ["plt.plot" in cell.source for cell in folded] == [True]
 
