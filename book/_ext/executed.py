@@ -32,7 +32,7 @@ EVIDENCE = {  # the section, below book/, where the items are tested or used
     "model#one-relative-coordinate": "M4",
     "model#the-dimensionless-oscillator": "M6 N3",
     "method#the-flows-derivative": "N2",
-    "chapters/stiffness#its-mean-is-not-1": "M5",
+    "chapters/stiffness#its-mean": "M5",
     "chapters/tooth_bending#a-tooth-as-a-beam": "K1",
     "chapters/tooth_bending#the-path-of-contact": "K4",
     "chapters/stiffness#the-articles-table": "K3",
