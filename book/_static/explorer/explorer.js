@@ -1,8 +1,8 @@
 // The explorer page: one state, everything drawn from it.
 gearpair.define(
   "explorer",
-  ["state", "follower", "player", "controls", "readout", "plot", "teeth", "history", "phase", "spectrum_view", "diagram", "verdict"],
-  function (states, follower, player, controls, readout, plotting, teeth, history, phase, spectra, diagrams, verdict) {
+  ["state", "follower", "player", "controls", "readout", "plot", "teeth", "history", "phase", "starts", "spectrum_view", "diagram", "verdict"],
+  function (states, follower, player, controls, readout, plotting, teeth, history, phase, { Starts }, spectra, diagrams, verdict) {
     const ADDRESS = 300; // milliseconds without a change before the address is written
     const SLOW = 0.03; // seconds
     const STEP = 800; // between two changes that are undone one by one
@@ -27,6 +27,12 @@ gearpair.define(
           note: this.find("diagram-note"),
           onPick: ({ parameter, value, x = this.state.x, v = this.state.v }) => this.change({ [parameter]: value, x, v }),
           onHover: (cursor) => this.hover(cursor),
+        });
+        this.starts = new Starts({
+          chips: this.find("chips"),
+          note: this.find("found"),
+          onPick: (start) => this.change(start),
+          onChange: () => this.shown && !this.hidden.has("phase") && this.drawPhase(),
         });
         this.listen();
         this.readAddress();
@@ -184,6 +190,7 @@ gearpair.define(
           this.follower.postMessage({ id: this.order, state: this.state });
           this.showControls(this.state);
           this.showDiagram();
+          this.starts.of(this.state);
         }
         // Where frames are slow, every other one shows a new motion, and those between keep the sliders fluid.
         this.passed = Boolean(this.fresh) && elapsed > SLOW && !this.passed;
@@ -217,6 +224,7 @@ gearpair.define(
           this.diagram.draws(this.theme);
           if (fresh.status === "aperiodic" || fresh.status === "unsettled") this.follower.postMessage({ id: fresh.id });
         } else Object.assign(fresh, { recorded: shown.recorded, following: shown.following }); // watched for longer
+        if (fresh.id === this.order && fresh.status !== "settling") this.starts.show(fresh, this.phasePlot.own);
         this.showReadout(fresh, !same);
         this.find("tells").textContent = spectra.tells(fresh);
         if (fresh.status === "periodic") {
@@ -246,12 +254,18 @@ gearpair.define(
         if (colour !== this.colour) this.root.style.setProperty("--motion", (this.colour = colour));
         const { points, name, lasted } = shown;
         this.diagram.mark({ value: state[this.state.diagram], points, colour, name, lasted });
-        const start = { x: state.x, v: state.v };
         const all = paper || !this.historyPlot;
         const draws = (name) => all || !this.hidden.has(name);
         if (draws("history")) this.historyPlot = history.drawHistory(this.find("history"), theme, { ...shown, colour });
-        if (draws("phase")) this.phasePlot = phase.drawPhase(this.find("phase"), theme, { ...shown, start, colour });
+        if (draws("phase")) this.drawPhase();
         if (draws("spectrum")) spectra.drawSpectrum(this.find("spectrum"), theme, { ...shown, colour });
+        this.still = false;
+      }
+
+      drawPhase() {
+        const { shown, theme, starts, colour } = this;
+        const { x, v } = shown.state;
+        this.phasePlot = phase.drawPhase(this.find("phase"), theme, { ...shown, start: { x, v }, colour, starts });
         this.still = false;
       }
 
