@@ -16,12 +16,13 @@ LABELS = """(order) => {
 }"""
 STARTS = f"{EXPLORER}.starts"
 ACROSS, UP = 48, 32
-ASIDE = 1e-9  # a start that another motion has so near by is on a boundary for rounding
+ASIDE = np.linspace(-1e-9, 1e-9, 15)
+MOST = 0.01  # of the starts: those within 1e-9 of a boundary, where the last digits of the transient decide
 CASES = {
-    "the baseline, with four motions": ({}, (-2.5, 2.5, -1.5, 1.5), 0.0),
-    "contact only damps": ({"damping_ratio": 0.04, "flight_damping": 0.0}, (-3.0, 3.0, -2.0, 2.0), 0.0),
-    "three motions of large range": ({"mesh_frequency": 1.7}, (-12.0, 12.0, -12.0, 12.0), 0.0),
-    "long chaotic transients": ({"mesh_frequency": 1.09}, (-2.0, 2.0, -1.5, 1.5), 0.25),
+    "the baseline, with four motions": ({}, (-2.5, 2.5, -1.5, 1.5)),
+    "contact only damps": ({"damping_ratio": 0.04, "flight_damping": 0.0}, (-3.0, 3.0, -2.0, 2.0)),
+    "three motions of large range": ({"mesh_frequency": 1.7}, (-12.0, 12.0, -12.0, 12.0)),
+    "long chaotic transients": ({"mesh_frequency": 1.09}, (-2.0, 2.0, -1.5, 1.5)),
 }
 
 
@@ -30,42 +31,36 @@ def labels(osc: gp.Oscillator, box: tuple[float, float, float, float]) -> list[d
     return run_in_node(LABELS, {"oscillator": as_json(osc), "range": sides})
 
 
-def numbers(osc: gp.Oscillator, found: list[dict], aside: float = 0.0) -> np.ndarray:
-    """The library's motion for each label's start, as (period, smallest X of the section); period 0 is not periodic."""
-    xs, vs = (np.unique([label[name] for label in found]) for name in ("x", "v"))
-    assert (len(xs), len(vs)) == (ACROSS, UP)
-    result = gp.basins(osc, xs + aside, vs + aside)
-    known = np.searchsorted(xs, [label["x"] for label in found]), np.searchsorted(vs, [label["v"] for label in found])
-    attractor = result.attractor.values[known[1], known[0]]
-    periods = dict(zip(result.attractor_number.values, result.attractor_period.values, strict=True))
-    points = dict(zip(result.attractor_number.values, result.attractor_x.values, strict=True))
-    pairs = [(periods[n], points[n]) if n >= 0 and periods[n] > 0 else (0, 0.0) for n in attractor]
-    return np.array(pairs, dtype=float)
+def reached(osc: gp.Oscillator, xs: np.ndarray, vs: np.ndarray) -> np.ndarray:
+    """The library's motion by start, as (period, smallest X of the section); (0, 0) where it is not periodic."""
+    result = gp.basins(osc, xs, vs)
+    motions = dict.fromkeys([-1], (0.0, 0.0))
+    for number, period, x in zip(result.attractor_number, result.attractor_period, result.attractor_x, strict=True):
+        motions[int(number)] = (float(period), float(x)) if period > 0 else (0.0, 0.0)
+    return np.array([[motions[int(number)] for number in row] for row in result.attractor.values])
 
 
 @pytest.mark.parametrize("name", CASES)
 @pytest.mark.slow
 def test_the_labels_are_those_of_basins(name):
-    """Each start ends on the library's motion, unless there, too, another lies within rounding of it.
-
-    Where chaos comes first, rounding decides for many starts: of these a share may differ, which is said in `CASES`.
-    Elsewhere none may: 1536 starts, to the last one.
-    """
-    changes, box, allowed = CASES[name]
+    """1536 starts end on the library's motion, but for those that have the page's within 1e-9, too."""
+    changes, box = CASES[name]
     osc = gp.Oscillator(**changes)
     found = labels(osc, box)
     assert len(found) == ACROSS * UP
-    truth = numbers(osc, found)
-    own = np.array([
-        (label["motion"]["period"], label["motion"]["points"][0]["x"]) if label["motion"]["period"] else (0, 0.0)
-        for label in found
-    ])  # fmt: skip
-    differs = np.abs(own - truth).max(axis=1) > 1e-6
-    if differs.any():
-        near = np.abs(numbers(osc, found, ASIDE) - truth).max(axis=1) > 1e-6
-        print(name, differs.mean(), near.mean(), (differs & ~near).mean())
-    assert differs.mean() <= allowed
-    assert len({tuple(np.round(row, 6)) for row in own}) >= 2
+    xs, vs = (np.unique([label[name] for label in found]) for name in ("x", "v"))
+    truth = reached(osc, xs, vs)
+    motions, differing = set(), 0
+    for label in found:
+        motion = label["motion"]
+        own = (motion["period"], motion["points"][0]["x"]) if motion["period"] else (0.0, 0.0)
+        motions.add((own[0], round(own[1], 6)))
+        if np.abs(truth[np.searchsorted(vs, label["v"]), np.searchsorted(xs, label["x"])] - own).max() > 1e-6:
+            differing += 1
+            near = reached(osc, label["x"] + ASIDE, label["v"] + ASIDE).reshape(-1, 2)
+            assert np.abs(near - own).max(axis=1).min() < 1e-6, (label["x"], label["v"])
+    assert differing <= MOST * len(found)
+    assert len(motions) >= 2
 
 
 def test_starts_from_coarse_to_fine_each_once():
