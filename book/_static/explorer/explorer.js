@@ -1,8 +1,8 @@
 // The explorer page: one state, everything drawn from it.
 gearpair.define(
   "explorer",
-  ["state", "follower", "player", "controls", "readout", "plot", "teeth", "history", "phase", "starts", "spectrum_view", "diagram", "verdict"],
-  function (states, follower, player, controls, readout, plotting, teeth, history, phase, { Starts }, spectra, diagrams, verdict) {
+  ["state", "follower", "player", "controls", "readout", "plot", "teeth", "history", "phase", "starts", "spectrum_view", "diagram", "compare", "run_up", "verdict"],
+  function (states, follower, player, controls, readout, plotting, teeth, history, phase, { Starts }, spectra, diagrams, { Comparison }, { RunUp }, verdict) {
     const ADDRESS = 300; // milliseconds without a change before the address is written
     const SLOW = 0.03; // seconds
     const STEP = 800; // between two changes that are undone one by one
@@ -33,6 +33,19 @@ gearpair.define(
           note: this.find("found"),
           onPick: (start) => this.change(start),
           onChange: () => this.shown && !this.hidden.has("phase") && this.drawPhase(),
+        });
+        this.comparison = new Comparison({
+          button: this.find("keep"),
+          note: this.find("kept"),
+          load: this.find("kept-load"),
+          onChange: () => this.shown && this.draw(),
+        });
+        this.runUp = new RunUp({
+          buttons: { up: this.find("run-up"), down: this.find("run-down") },
+          log: this.find("run-log"),
+          note: this.find("run-note"),
+          onStart: () => this.state.diagram !== "mesh_frequency" && this.change({ diagram: "mesh_frequency" }),
+          onStep: (changes) => this.change(changes),
         });
         this.listen();
         this.readAddress();
@@ -81,6 +94,7 @@ gearpair.define(
 
       change(changes, keepComplaint = false) {
         if (this.state) this.remember(changes);
+        if (!this.runUp.stepping && !("diagram" in changes)) this.runUp.stop("stopped by a change");
         this.state = { ...this.state, ...changes };
         if (!keepComplaint) this.say("");
         this.changed = true;
@@ -184,6 +198,7 @@ gearpair.define(
       frame(now) {
         const elapsed = Math.min(now - (this.last ?? now), 100) / 1000;
         this.last = now;
+        this.runUp.frame(elapsed);
         if (this.changed) {
           this.changed = false;
           this.order++;
@@ -220,11 +235,14 @@ gearpair.define(
         this.pending = fresh.id !== this.order || fresh.status === "settling";
         this.theme ??= plotting.readTheme(this.root);
         if (!same) {
+          if (this.runUp.way) this.diagram.trace = this.runUp.trace;
+          this.comparison.show(fresh);
           this.draw();
           this.diagram.draws(this.theme);
           if (fresh.status === "aperiodic" || fresh.status === "unsettled") this.follower.postMessage({ id: fresh.id });
         } else Object.assign(fresh, { recorded: shown.recorded, following: shown.following }); // watched for longer
         if (fresh.id === this.order && fresh.status !== "settling") this.starts.show(fresh, this.phasePlot.own);
+        this.runUp.show(fresh);
         this.showReadout(fresh, !same);
         this.find("tells").textContent = spectra.tells(fresh);
         if (fresh.status === "periodic") {
@@ -256,7 +274,7 @@ gearpair.define(
         this.diagram.mark({ value: state[this.state.diagram], points, colour, name, lasted });
         const all = paper || !this.historyPlot;
         const draws = (name) => all || !this.hidden.has(name);
-        if (draws("history")) this.historyPlot = history.drawHistory(this.find("history"), theme, { ...shown, colour });
+        if (draws("history")) this.historyPlot = history.drawHistory(this.find("history"), theme, { ...shown, colour, kept: this.comparison.kept });
         if (draws("phase")) this.drawPhase();
         if (draws("spectrum")) spectra.drawSpectrum(this.find("spectrum"), theme, { ...shown, colour });
         this.still = false;
@@ -265,7 +283,8 @@ gearpair.define(
       drawPhase() {
         const { shown, theme, starts, colour } = this;
         const { x, v } = shown.state;
-        this.phasePlot = phase.drawPhase(this.find("phase"), theme, { ...shown, start: { x, v }, colour, starts });
+        const { kept } = this.comparison;
+        this.phasePlot = phase.drawPhase(this.find("phase"), theme, { ...shown, start: { x, v }, colour, starts, kept });
         this.still = false;
       }
 

@@ -1,7 +1,7 @@
 // The plane of starts as it stands behind the phase portrait, and a button for each motion found in it.
 gearpair.define("starts", ["plane", "verdict"], function (planes, verdict) {
   const { ACROSS, UP } = planes;
-  const WAIT = 500; // milliseconds without a change before the worker starts
+  const WAIT = 600; // milliseconds without a change before the worker starts
   const PALER = 0.6; // a second motion of a colour, as in gearpair.plotting.basins
   const FAR = 12; // of a motion that escapes, no start further out is tried
 
@@ -22,16 +22,17 @@ gearpair.define("starts", ["plane", "verdict"], function (planes, verdict) {
       });
     }
 
-    // No motion is known, and no start is followed.
+    // No motion is known, and no start is followed. The buttons stay where they are until there are others.
     clear() {
       this.worker.postMessage({ id: ++this.order });
       clearTimeout(this.timer);
       this.motions = []; // { motion, start, count, met }
       this.fields = []; // { number, size } of a motion and of what it stands for, by field
       this.range = null;
+      this.drawn = null;
       this.busy = false;
-      this.picture.getContext("2d").clearRect(0, 0, ACROSS, UP);
-      this.describe();
+      this.chips.inert = true;
+      this.note.textContent = "";
     }
 
     // Forget what was found unless it is of this gear pair, however it starts.
@@ -40,24 +41,32 @@ gearpair.define("starts", ["plane", "verdict"], function (planes, verdict) {
       const key = JSON.stringify(rest);
       if (key === this.key) return;
       this.key = key;
-      this.clear();
+      clearTimeout(this.timer);
+      if (this.range || !this.motions) this.clear();
     }
 
     // A motion that the page shows is found and met; the plane behind it covers the `range` of its picture.
     show(shown, range) {
       this.of(shown.state);
+      clearTimeout(this.timer);
+      const go = () => this.include(shown, range);
+      if (this.range) go();
+      else this.timer = setTimeout(go, WAIT);
+    }
+
+    include(shown, range) {
       const { x, v } = shown.state;
       this.present = this.number(shown, { x, v });
       this.motions[this.present].met = true;
-      this.describe();
       const wanted = shown.points.length ? range : clipped(range);
-      if (this.range && covers(this.range, wanted)) return;
-      this.range = this.range ? union(this.range, wanted) : wanted;
-      this.busy = true;
-      clearTimeout(this.timer);
-      const order = { id: ++this.order, oscillator: shown.state, range: this.range };
-      this.worker.postMessage({ id: this.order });
-      this.timer = setTimeout(() => this.worker.postMessage(order), WAIT);
+      const wider = !this.range || !covers(this.range, wanted);
+      if (wider) {
+        this.range = this.range ? union(this.range, wanted) : wanted;
+        this.busy = true;
+        this.worker.postMessage({ id: ++this.order, oscillator: shown.state, range: this.range });
+      }
+      this.chips.inert = false;
+      this.describe();
     }
 
     receive({ id, batch, done }) {
