@@ -18,6 +18,7 @@ gearpair.define(
         this.follower.onmessage = ({ data }) => this.receive(data);
         this.playing = !player.prefersStill();
         this.time = 0;
+        this.unmoved = 0; // seconds since the teeth were moved
         this.showControls = controls.build(this.find("controls"), (changes) => this.change(changes), (text) => this.say(text));
         this.showReadout = readout.build(root, this.find("live"), this.find("meaning"));
         this.diagram = new diagrams.Diagram({
@@ -199,19 +200,29 @@ gearpair.define(
         const elapsed = Math.min(now - (this.last ?? now), 100) / 1000;
         this.last = now;
         this.runUp.frame(elapsed);
-        if (this.changed) {
-          this.changed = false;
-          this.order++;
-          this.follower.postMessage({ id: this.order, state: this.state });
-          this.showControls(this.state);
-          this.showDiagram();
-          this.starts.of(this.state);
+        // Where frames are slow, every other one takes what has changed and shows a new motion; those between, which are
+        // quick, move the teeth.
+        const slow = elapsed > SLOW || this.passed;
+        this.passed = Boolean(this.changed || this.fresh) && slow && !this.passed;
+        const shows = this.fresh && !this.passed;
+        if (this.changed && !this.passed) this.take();
+        if (shows) this.show();
+        this.unmoved += elapsed;
+        if (this.visible && !(shows && slow)) {
+          this.animate(this.unmoved);
+          this.unmoved = 0;
         }
-        // Where frames are slow, every other one shows a new motion, and those between keep the sliders fluid.
-        this.passed = Boolean(this.fresh) && elapsed > SLOW && !this.passed;
-        if (this.fresh && !this.passed) this.show();
-        if (this.visible) this.animate(elapsed);
         requestAnimationFrame((next) => this.frame(next));
+      }
+
+      // What the reader has changed goes to the worker, the controls and the diagram.
+      take() {
+        this.changed = false;
+        this.order++;
+        this.follower.postMessage({ id: this.order, state: this.state });
+        this.showControls(this.state);
+        this.showDiagram();
+        this.starts.of(this.state);
       }
 
       // From the worker: a motion, how long it has been watched by now, or its next stretch.

@@ -71,7 +71,7 @@ gearpair.define("plane", ["library", "cells", "flow", "settle", "verdict"], func
       const go = () => {
         if (own !== order) return;
         const batch = [];
-        const end = performance.now() + 80;
+        const end = performance.now() + 120;
         let result = { done: false };
         while (!result.done && performance.now() < end) {
           result = work.next();
