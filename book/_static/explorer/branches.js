@@ -75,7 +75,7 @@ gearpair.define("branches", ["library", "cells", "flow", "settle", "verdict"], f
       const go = () => {
         if (own !== order) return;
         const batch = [];
-        const end = performance.now() + 40;
+        const end = performance.now() + 120; // seldom enough not to slow a drag
         let result = { done: false };
         while (!result.done && performance.now() < end) {
           result = work.next();

@@ -1,8 +1,8 @@
 // The explorer page: one state, everything drawn from it.
 gearpair.define(
   "explorer",
-  ["state", "follower", "player", "controls", "readout", "plot", "teeth", "history", "phase", "spectrum_view", "diagram", "verdict"],
-  function (states, follower, player, controls, readout, plotting, teeth, history, phase, spectra, diagrams, verdict) {
+  ["state", "follower", "player", "controls", "readout", "plot", "teeth", "history", "phase", "starts", "spectrum_view", "diagram", "compare", "run_up", "verdict"],
+  function (states, follower, player, controls, readout, plotting, teeth, history, phase, { Starts }, spectra, diagrams, { Comparison }, { RunUp }, verdict) {
     const ADDRESS = 300; // milliseconds without a change before the address is written
     const SLOW = 0.03; // seconds
     const STEP = 800; // between two changes that are undone one by one
@@ -18,6 +18,7 @@ gearpair.define(
         this.follower.onmessage = ({ data }) => this.receive(data);
         this.playing = !player.prefersStill();
         this.time = 0;
+        this.unmoved = 0; // seconds since the teeth were moved
         this.showControls = controls.build(this.find("controls"), (changes) => this.change(changes), (text) => this.say(text));
         this.showReadout = readout.build(root, this.find("live"), this.find("meaning"));
         this.diagram = new diagrams.Diagram({
@@ -27,6 +28,25 @@ gearpair.define(
           note: this.find("diagram-note"),
           onPick: ({ parameter, value, x = this.state.x, v = this.state.v }) => this.change({ [parameter]: value, x, v }),
           onHover: (cursor) => this.hover(cursor),
+        });
+        this.starts = new Starts({
+          chips: this.find("chips"),
+          note: this.find("found"),
+          onPick: (start) => this.change(start),
+          onChange: () => this.shown && !this.hidden.has("phase") && this.drawPhase(),
+        });
+        this.comparison = new Comparison({
+          button: this.find("keep"),
+          note: this.find("kept"),
+          load: this.find("kept-load"),
+          onChange: () => this.shown && this.draw(),
+        });
+        this.runUp = new RunUp({
+          buttons: { up: this.find("run-up"), down: this.find("run-down") },
+          log: this.find("run-log"),
+          note: this.find("run-note"),
+          onStart: () => this.state.diagram !== "mesh_frequency" && this.change({ diagram: "mesh_frequency" }),
+          onStep: (changes) => this.change(changes),
         });
         this.listen();
         this.readAddress();
@@ -75,6 +95,7 @@ gearpair.define(
 
       change(changes, keepComplaint = false) {
         if (this.state) this.remember(changes);
+        if (!this.runUp.stepping && !("diagram" in changes)) this.runUp.stop("stopped by a change");
         this.state = { ...this.state, ...changes };
         if (!keepComplaint) this.say("");
         this.changed = true;
@@ -178,18 +199,30 @@ gearpair.define(
       frame(now) {
         const elapsed = Math.min(now - (this.last ?? now), 100) / 1000;
         this.last = now;
-        if (this.changed) {
-          this.changed = false;
-          this.order++;
-          this.follower.postMessage({ id: this.order, state: this.state });
-          this.showControls(this.state);
-          this.showDiagram();
+        this.runUp.frame(elapsed);
+        // Where frames are slow, every other one takes what has changed and shows a new motion; those between, which are
+        // quick, move the teeth.
+        const slow = elapsed > SLOW || this.passed;
+        this.passed = Boolean(this.changed || this.fresh) && slow && !this.passed;
+        const shows = this.fresh && !this.passed;
+        if (this.changed && !this.passed) this.take();
+        if (shows) this.show();
+        this.unmoved += elapsed;
+        if (this.visible && !(shows && slow)) {
+          this.animate(this.unmoved);
+          this.unmoved = 0;
         }
-        // Where frames are slow, every other one shows a new motion, and those between keep the sliders fluid.
-        this.passed = Boolean(this.fresh) && elapsed > SLOW && !this.passed;
-        if (this.fresh && !this.passed) this.show();
-        if (this.visible) this.animate(elapsed);
         requestAnimationFrame((next) => this.frame(next));
+      }
+
+      // What the reader has changed goes to the worker, the controls and the diagram.
+      take() {
+        this.changed = false;
+        this.order++;
+        this.follower.postMessage({ id: this.order, state: this.state });
+        this.showControls(this.state);
+        this.showDiagram();
+        this.starts.of(this.state);
       }
 
       // From the worker: a motion, how long it has been watched by now, or its next stretch.
@@ -213,10 +246,14 @@ gearpair.define(
         this.pending = fresh.id !== this.order || fresh.status === "settling";
         this.theme ??= plotting.readTheme(this.root);
         if (!same) {
+          if (this.runUp.way) this.diagram.trace = this.runUp.trace;
+          this.comparison.show(fresh);
           this.draw();
           this.diagram.draws(this.theme);
           if (fresh.status === "aperiodic" || fresh.status === "unsettled") this.follower.postMessage({ id: fresh.id });
         } else Object.assign(fresh, { recorded: shown.recorded, following: shown.following }); // watched for longer
+        if (fresh.id === this.order && fresh.status !== "settling") this.starts.show(fresh, this.phasePlot.own);
+        this.runUp.show(fresh);
         this.showReadout(fresh, !same);
         this.find("tells").textContent = spectra.tells(fresh);
         if (fresh.status === "periodic") {
@@ -246,12 +283,19 @@ gearpair.define(
         if (colour !== this.colour) this.root.style.setProperty("--motion", (this.colour = colour));
         const { points, name, lasted } = shown;
         this.diagram.mark({ value: state[this.state.diagram], points, colour, name, lasted });
-        const start = { x: state.x, v: state.v };
         const all = paper || !this.historyPlot;
         const draws = (name) => all || !this.hidden.has(name);
-        if (draws("history")) this.historyPlot = history.drawHistory(this.find("history"), theme, { ...shown, colour });
-        if (draws("phase")) this.phasePlot = phase.drawPhase(this.find("phase"), theme, { ...shown, start, colour });
+        if (draws("history")) this.historyPlot = history.drawHistory(this.find("history"), theme, { ...shown, colour, kept: this.comparison.kept });
+        if (draws("phase")) this.drawPhase();
         if (draws("spectrum")) spectra.drawSpectrum(this.find("spectrum"), theme, { ...shown, colour });
+        this.still = false;
+      }
+
+      drawPhase() {
+        const { shown, theme, starts, colour } = this;
+        const { x, v } = shown.state;
+        const { kept } = this.comparison;
+        this.phasePlot = phase.drawPhase(this.find("phase"), theme, { ...shown, start: { x, v }, colour, starts, kept });
         this.still = false;
       }
 

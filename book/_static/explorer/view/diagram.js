@@ -14,6 +14,7 @@ gearpair.define("diagram", ["library", "plot", "branches", "verdict"], function 
       this.columns = []; // by their place; one that comes again has been watched for longer
       this.order = 0;
       this.key = "";
+      this.trace = []; // section points of a run-up: { value, x }
       this.busy = true;
       this.cursor = null; // the point under the keyboard or the pointer: { column, point }
       this.worker.onmessage = ({ data }) => this.receive(data);
@@ -31,6 +32,7 @@ gearpair.define("diagram", ["library", "plot", "branches", "verdict"], function 
       this.entry = entry;
       if (key === this.key) return;
       this.key = key;
+      this.trace = [];
       this.stale = true;
       this.busy = true;
       this.order++;
@@ -169,6 +171,8 @@ gearpair.define("diagram", ["library", "plot", "branches", "verdict"], function 
         ctx.lineTo(x, this.plot.box.bottom);
         ctx.stroke();
         ctx.globalAlpha = 1;
+        ctx.fillStyle = this.theme.ink;
+        for (const point of this.trace) ctx.fillRect(this.plot.x(point.value) - 1, this.plot.y(point.x) - 1, 2, 2);
         if (marked.points.length <= 64) for (const point of marked.points) this.ring(ctx, x, this.plot.y(point.x), 4, marked.colour);
         if (this.cursor) {
           const { column, point } = this.cursor;

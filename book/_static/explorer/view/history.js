@@ -1,22 +1,26 @@
-// X over time, with a dot at each contact made.
+// X over time, with a dot at each contact made, and the motion kept in grey behind.
 gearpair.define("history", ["plot"], function ({ prepare, axes, inside, padded }) {
-  function drawHistory(canvas, theme, { recorded, colour }) {
+  function drawHistory(canvas, theme, { recorded, colour, kept }) {
     const paper = prepare(canvas);
     const { ctx } = paper;
     const { x: values, periods, crossings } = recorded;
-    const [bottom, top] = padded(Math.min(-1, ...values), Math.max(1, ...values));
+    const others = kept?.recorded.x ?? [];
+    const [bottom, top] = padded(Math.min(-1, ...values, ...others), Math.max(1, ...values, ...others));
     const range = { left: 0, right: periods, bottom, top };
     const plot = axes(paper, range, theme, { xLabel: "time (mesh periods)", yLabel: "X" });
     inside(paper, plot, () => {
       ctx.fillStyle = theme.backlash;
       ctx.fillRect(plot.box.left + 1, plot.y(1), plot.box.right - plot.box.left, plot.y(-1) - plot.y(1));
+      ctx.lineJoin = "round";
+      if (kept) {
+        const spans = kept.repeats ? Math.ceil(periods / kept.recorded.periods) : 1; // what repeats goes on
+        ctx.strokeStyle = theme.muted;
+        ctx.lineWidth = 1.4;
+        for (let i = 0; i < spans; i++) line(ctx, plot, kept.recorded, i * kept.recorded.periods);
+      }
       ctx.strokeStyle = colour;
       ctx.lineWidth = 1.6;
-      ctx.lineJoin = "round";
-      ctx.beginPath();
-      const step = Math.max(1, Math.floor(values.length / (2 * paper.width)));
-      for (let i = 0; i < values.length; i += step) ctx.lineTo(plot.x((i * periods) / values.length), plot.y(values[i]));
-      ctx.stroke();
+      line(ctx, plot, recorded, 0);
       ctx.fillStyle = theme.paper;
       ctx.lineWidth = 1.2;
       for (const { time, side, contact } of crossings) {
@@ -28,6 +32,13 @@ gearpair.define("history", ["plot"], function ({ prepare, axes, inside, padded }
       }
     });
     return plot;
+  }
+
+  function line(ctx, plot, { x: values, periods }, from) {
+    const step = Math.max(1, Math.floor((values.length / (2 * (plot.x(periods) - plot.x(0))))));
+    ctx.beginPath();
+    for (let i = 0; i < values.length; i += step) ctx.lineTo(plot.x(from + (i * periods) / values.length), plot.y(values[i]));
+    ctx.stroke();
   }
 
   return { drawHistory };

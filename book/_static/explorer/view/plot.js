@@ -28,7 +28,26 @@ gearpair.define("plot", ["library"], function ({ motions: MOTIONS }) {
     }
     ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
     ctx.clearRect(0, 0, width, height);
-    return { ctx, width, height };
+    return { canvas, ratio, ctx, width, height };
+  }
+
+  // What changes seldom is drawn once, by `draw(ctx)`, and stamped on the paper until its `key` is another one. Text costs
+  // most: in a canvas of the page it makes the browser work out the page's styles first.
+  const stamps = new WeakMap(); // by canvas: { key, picture }
+
+  function stamp({ canvas, ratio, ctx, width, height }, theme, key, draw) {
+    const { font, paper, line, muted, backlash } = theme;
+    const full = JSON.stringify([key, width, height, ratio, font, paper, line, muted, backlash]);
+    let known = stamps.get(canvas);
+    if (known?.key !== full) {
+      known = { key: full, picture: known?.picture ?? document.createElement("canvas") };
+      [known.picture.width, known.picture.height] = [canvas.width, canvas.height]; // which clears it
+      const own = known.picture.getContext("2d");
+      own.setTransform(ratio, 0, 0, ratio, 0, 0);
+      draw(own);
+      stamps.set(canvas, known);
+    }
+    if (canvas.width && canvas.height) ctx.drawImage(known.picture, 0, 0, canvas.width / ratio, canvas.height / ratio);
   }
 
   // Round numbers in [low, high], about `count` of them.
@@ -43,10 +62,21 @@ gearpair.define("plot", ["library"], function ({ motions: MOTIONS }) {
 
   // Axes around the data of `range` { left, right, bottom, top }: draws them and returns the maps of data to pixels.
   // `xTicks` and `yTicks` are [value, text] where they are not plain numbers.
-  function axes({ ctx, width, height }, range, theme, { xLabel, yLabel, xTicks, yTicks }) {
+  function axes(paper, range, theme, words) {
+    const { width, height } = paper;
     const box = { left: 50, right: width - 8, top: 8, bottom: height - 36 };
     const x = (value) => box.left + ((value - range.left) / (range.right - range.left)) * (box.right - box.left);
     const y = (value) => box.bottom - ((value - range.bottom) / (range.top - range.bottom)) * (box.bottom - box.top);
+    stamp(paper, theme, [range, words], (ctx) => frame(ctx, { box, x, y, height }, range, theme, words));
+    const within = (px, py) => px >= box.left && px <= box.right && py >= box.top && py <= box.bottom;
+    const data = (px, py) => ({
+      x: range.left + ((px - box.left) / (box.right - box.left)) * (range.right - range.left),
+      y: range.bottom + ((box.bottom - py) / (box.bottom - box.top)) * (range.top - range.bottom),
+    });
+    return { box, x, y, data, within };
+  }
+
+  function frame(ctx, { box, x, y, height }, range, theme, { xLabel, yLabel, xTicks, yTicks }) {
     ctx.font = `11.5px ${theme.font}`;
     ctx.lineWidth = 1;
     ctx.strokeStyle = theme.line;
@@ -80,12 +110,6 @@ gearpair.define("plot", ["library"], function ({ motions: MOTIONS }) {
     ctx.textBaseline = "middle";
     ctx.fillText(yLabel, 0, 0);
     ctx.restore();
-    const within = (px, py) => px >= box.left && px <= box.right && py >= box.top && py <= box.bottom;
-    const data = (px, py) => ({
-      x: range.left + ((px - box.left) / (box.right - box.left)) * (range.right - range.left),
-      y: range.bottom + ((box.bottom - py) / (box.bottom - box.top)) * (range.top - range.bottom),
-    });
-    return { box, x, y, data, within };
   }
 
   const sign = (value) => String(value).replace("-", "−"); // a minus, not a hyphen
@@ -107,5 +131,5 @@ gearpair.define("plot", ["library"], function ({ motions: MOTIONS }) {
     return [Math.floor((low - air) / step) * step, Math.ceil((high + air) / step) * step];
   }
 
-  return { readTheme, prepare, forgetSizes, axes, inside, padded, sign };
+  return { readTheme, prepare, stamp, forgetSizes, axes, inside, padded, sign };
 });

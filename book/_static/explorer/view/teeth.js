@@ -1,5 +1,5 @@
 // Two teeth and the play between them, drawn larger than life: a tooth of one gear in the space of the other.
-gearpair.define("teeth", ["plot"], function ({ prepare }) {
+gearpair.define("teeth", ["plot"], function ({ prepare, stamp }) {
   const LEAN = Math.tan((20 * Math.PI) / 180);
   const FLASH = 0.35; // seconds that the ring of an impact is seen
 
@@ -39,7 +39,8 @@ gearpair.define("teeth", ["plot"], function ({ prepare }) {
 
   // `now`: X, the mesh force over the mean force, and the last impact { side, age } in seconds (or null).
   function drawTeeth(canvas, theme, now, labels = true) {
-    const { ctx, width, height } = prepare(canvas);
+    const paper = prepare(canvas);
+    const { ctx, width, height } = paper;
     const scale = Math.min(width / 320, height / 240);
     const half = 31 * scale; // half the thickness of a tooth on the pitch line
     const play = 22 * scale; // half the play
@@ -68,7 +69,7 @@ gearpair.define("teeth", ["plot"], function ({ prepare }) {
     ctx.stroke();
     const drawn = { ...shape, play, shift: play * at, at, height, scale };
     glow(ctx, theme, now, drawn);
-    if (labels) gauge(ctx, theme, now.x, drawn);
+    if (labels) gauge(paper, theme, now.x, drawn);
   }
 
   // Contact: a spot that grows with the mesh force, and a ring that spreads from each impact.
@@ -102,9 +103,18 @@ gearpair.define("teeth", ["plot"], function ({ prepare }) {
   }
 
   // Where X is: a pointer over the play from -1 to 1.
-  function gauge(ctx, theme, x, { cx, play, at, height, scale }) {
+  function gauge(paper, theme, x, { cx, play, at, height }) {
+    const { ctx } = paper;
     const unit = 1.6 * play;
     const y = height - 26;
+    stamp(paper, theme, "gauge", (still) => scaleOfX(still, theme, { cx, unit, y }));
+    ctx.fillStyle = x > 1 ? theme.drive : x < -1 ? theme.coast : theme.ink;
+    ctx.beginPath();
+    ctx.arc(cx + at * unit, y, 5, 0, 2 * Math.PI);
+    ctx.fill();
+  }
+
+  function scaleOfX(ctx, theme, { cx, unit, y }) {
     ctx.fillStyle = theme.paper;
     ctx.globalAlpha = 0.82;
     ctx.beginPath();
@@ -128,10 +138,6 @@ gearpair.define("teeth", ["plot"], function ({ prepare }) {
       ctx.fillText(text, cx + mark * unit, y + 8);
     }
     ctx.stroke();
-    ctx.fillStyle = x > 1 ? theme.drive : x < -1 ? theme.coast : theme.ink;
-    ctx.beginPath();
-    ctx.arc(cx + at * unit, y, 5, 0, 2 * Math.PI);
-    ctx.fill();
   }
 
   return { drawTeeth, place };
