@@ -68,7 +68,7 @@ def test_the_installed_command_finds_its_chapters_from_anywhere(installed, tmp_p
         [sys.executable, str(command), "chapters"], cwd=tmp_path, env=environment, capture_output=True, text=True
     )
     assert done.returncode == 0, done.stderr
-    assert "stiffness: The stiffness wave" in done.stdout
+    assert "stiffness: From teeth to the wave" in done.stdout
     where = "from gearpair.study.book import Book; book = Book.find(); print(book.root, book.target, sep='\\n')"
     done = subprocess.run(
         [sys.executable, "-c", where], cwd=tmp_path, env=environment, capture_output=True, text=True, check=True
