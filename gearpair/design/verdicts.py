@@ -141,10 +141,10 @@ def _worst(chart: xr.Dataset, iso: IsoDynamicFactor | None) -> str:
     compared = "" if iso is None else f", {_by_iso(iso.k_v[top])}"
     force = largest[top] * abs(chart.attrs["mean_force_n"]) / 1000
     apart = float(chart.time_apart_high.max())
+    parted = f"apart for up to {apart:.0%} of the time" if apart > 0.0 else "never apart"
     return (
         f"The worst of the range is a dynamic factor of {largest[top]:.1f} at {chart.speed.values[top]:.0f} rpm"
-        f"{compared}; the mesh then carries up to {three_digits(force)} kN. The teeth are apart for up to {apart:.0%} "
-        "of the time."
+        f"{compared}; the mesh then carries up to {three_digits(force)} kN. The teeth are {parted}."
     )
 
 

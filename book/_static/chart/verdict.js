@@ -105,10 +105,11 @@ gearpair.define("chart/verdict", ["chart/data", "chart/numbers"], function (data
     if (!numbers(factorHigh).length) return "";
     const top = argmax(factorHigh.map((value) => (Number.isNaN(value) ? -Infinity : value)));
     const force = (factorHigh[top] * drive.meanForce) / 1000;
+    const apart = largest(apartHigh);
+    const parted = apart > 0 ? `apart for up to ${percent(apart)} of the time` : "never apart";
     return (
       `The worst of the range is a dynamic factor of ${fixed(factorHigh[top], 1)} at ${fixed(speeds[top], 0)} rpm, ` +
-      `${byIso(iso[top])}; the mesh then carries up to ${threeDigits(force)} kN. The teeth are apart for up to ` +
-      `${percent(orNaN(largest(apartHigh)))} of the time.`
+      `${byIso(iso[top])}; the mesh then carries up to ${threeDigits(force)} kN. The teeth are ${parted}.`
     );
   }
 
