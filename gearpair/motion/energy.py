@@ -84,7 +84,7 @@ def energy_balance(osc: Oscillator, x: float, v: float, n_periods: int = 1) -> E
     Examples
     --------
     >>> from gearpair.motion import steady_state
-    >>> state = steady_state(Oscillator(mesh_frequency=1.6))
+    >>> state = steady_state(Oscillator())
     >>> balance = energy_balance(state.oscillator, *state.points[0], state.period)
     >>> bool(abs(balance.remainder).max() < 1e-14)
     True

@@ -171,6 +171,7 @@ def name_rows(ax: Axes, names: Iterable[object], parameter: str) -> None:
     ax.set(xlabel=axis_label(parameter), ylim=(len(texts) - 0.5, -0.5))
 
 
+@checked
 def bare(ax: Axes) -> Axes:
     """The Axes without ticks, words and legends, for a picture that is seen at the size of a stamp.
 
