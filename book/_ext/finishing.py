@@ -41,6 +41,12 @@ MENDS: tuple[tuple[str, str, str], ...] = (
     (r"(Show|Hide) code cell source", r"\1 the code", "said some thirty times a chapter, it is said in plain words"),
     (r"(Show|Hide) code cell outputs?", r"\1 the result", "the same"),
     (
+        r'</details>\s*</div>\s*<div class="cell[^"]*tag_hide-input[^"]*">\s*'
+        r'<details class="admonition hide above-input">\s*<summary[^>]*>.*?</summary>',
+        "",
+        "folded cells without a result stand behind one bar, not in a row of bars",
+    ),
+    (
         r'(?<!class="whole">)(?<=[\s>])(?=[^\s<>]|<span class="math[^>]*>[^<]*</span>[^\s<])'
         r'([^\s<>]*<span class="math[^>]*>[^<]*</span>[^\s<]*)',
         r'<span class="whole">\1</span>',

@@ -15,6 +15,10 @@ finish_site, mend = FINISHING.finish_site, FINISHING.mend
 
 THEBE = '<script>const THEBE_JS_URL = "https://example.org/thebe.js"; const other = 1</script>'
 X = r'<span class="math notranslate nohighlight">\(X\)</span>'
+CELL = (
+    '<div class="cell tag_hide-input docutils container">\n<details class="admonition hide above-input">\n<summary>'
+    "<span>Show the code</span></summary>\n{}\n</details>\n</div>\n"
+)
 TOGGLE = "<script>var togglebuttonSelector = '.toggle';</script>"
 
 
@@ -45,6 +49,11 @@ TOGGLE = "<script>var togglebuttonSelector = '.toggle';</script>"
         (
             '<span class="pre">-p</span> <span class="pre">a-b</span>',
             '<span class="pre option">-p</span> <span class="pre">a-b</span>',
+        ),
+        (f"{CELL.format('first')}{CELL.format('second')}", CELL.format("first\n\nsecond")),
+        (
+            f"{CELL.format('first')}a result{CELL.format('second')}",
+            f"{CELL.format('first')}a result{CELL.format('second')}",
         ),
         ("<p>nothing to mend</p>", "<p>nothing to mend</p>"),
     ],
