@@ -66,6 +66,7 @@ def sheets(file: Path, output: Path, wanted: Sequence[str], course: Path) -> Non
         students = [each.student_id for each in read_class(file)]
     sources = _sources(course, wanted)
     for source in sources:
+        click.echo(f"{source.stem}: the answers of {len(students)} students", err=True)
         into = output / source.stem
         into.mkdir(parents=True, exist_ok=True)
         for student in students:

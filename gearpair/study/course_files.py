@@ -9,7 +9,7 @@ from pathlib import Path
 from xml.etree import ElementTree as Xml
 
 from gearpair import teaching
-from gearpair.study.course_pages import markdown, own_numbers, setup_of, tolerance
+from gearpair.study.course_pages import markdown, own_numbers, questions_of, setup_of, tolerance
 
 
 def moodle_xml(sources: Sequence[Path], students: Sequence[str]) -> str:
@@ -23,7 +23,7 @@ def moodle_xml(sources: Sequence[Path], students: Sequence[str]) -> str:
         for student in students:
             category = Xml.SubElement(quiz, "question", type="category")
             _text(category, "category", f"$course$/top/gearpair/{source.stem}/{student}")
-            for number, question in enumerate(teaching.questions(source, student), start=1):
+            for number, question in enumerate(questions_of(source, student), start=1):
                 own = own_numbers(setup_of(source), student)
                 given = "".join(f"<li>{name}: {value:.6g}</li>" for name, value in own.items())
                 body = f"<ul>{given}</ul>{markdown(question.text)}"
@@ -42,7 +42,7 @@ def answers_csv(sources: Sequence[Path], students: Sequence[str]) -> str:
     writer.writerow(["assignment", "id", "question", "answer", "right", "tolerance", "marks"])
     for source in sources:
         for student in students:
-            for number, question in enumerate(teaching.questions(source, student), start=1):
+            for number, question in enumerate(questions_of(source, student), start=1):
                 for item in question.items:
                     truth = "figure" if item.truth is None or callable(item.truth) else item.truth
                     is_number = bool(item.within) and truth != "figure"

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from html import escape
 from pathlib import Path
 from typing import Any
 
 import nbformat
+import numpy as np
 from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
@@ -23,17 +25,24 @@ td.answer { width: 45%; height: 1.6em; } .lines { height: 8em; border: 1px solid
 code { font-size: .9em; } .right { font-variant-numeric: tabular-nums; } section { break-inside: avoid; }
 @media print { body { margin: 0; max-width: none; } }
 """
+OF_NOTEBOOKS = "The cells after each question"  # how a sentence begins that paper has no use for
+RULES = (
+    "What counts as right, by id, with the marks of each answer in brackets. A right number off by a power of ten (a "
+    "wrong unit) earns half. What follows from a student's own earlier answer counts as right: that is for you to see. "
+    "Of a curve, x: y at five places."
+)
 WORDS_A_MINUTE, MINUTES_A_LINE, MINUTES_A_MARK = 100, 4, 5
 
 
 def sheet(source: Path, student_id: str) -> str:
     """The page that one student gets: their own numbers, the questions, and room for the answers."""
     cells = nbformat.read(source, as_version=4).cells
-    head = [markdown(cells[0].source), f"<p><b>Student:</b> {escape(student_id)}</p>"]
+    told = [part for part in cells[0].source.split("\n\n") if not part.startswith(OF_NOTEBOOKS)]
+    head = [markdown("\n\n".join(told)), f"<p><b>Student:</b> {escape(student_id)}</p>"]
     own = own_numbers(setup_of(source), student_id)
     numbers = "".join(_row([escape(name), f"{value:.6g}"]) for name, value in own.items())
     parts = [*head, f"<h2>Your numbers</h2><table>{numbers}</table>"]
-    for question in teaching.questions(source, student_id):
+    for question in questions_of(source, student_id):
         rows = "".join(_row([f"<code>{escape(item.name)}</code>", ""], answer=True) for item in _asked(question))
         rest = [item for item in question.items if item not in _asked(question)]
         figure = "<p><i>Hand in the figure with this sheet.</i></p>" if rest else ""
@@ -44,14 +53,16 @@ def sheet(source: Path, student_id: str) -> str:
 
 def marking_sheet(source: Path, students: Sequence[str]) -> str:
     """The page for who marks: the right numbers of every student with what counts as right, and the rubrics."""
-    answers = {student: teaching.questions(source, student) for student in students}
+    answers = {student: questions_of(source, student) for student in students}
     first = next(iter(answers.values()))
-    parts = [f"<h1>Marking: {escape(source.stem)}</h1>"]
+    parts = [f"<h1>Marking: {escape(source.stem)}</h1>", f"<p>{RULES}</p>"]
     for k, question in enumerate(first):
-        heading = question.text.partition("\n")[0].lstrip("# ")
-        parts.append(f"<h2>{markdown(heading, inline=True)} <small>({question.points:g} marks)</small></h2>")
+        heading, _, rest = question.text.partition("\n\n")
+        if heading.startswith("#"):
+            shown = markdown(heading.lstrip("# "), inline=True)
+            parts.append(f"<h2>{shown} <small>({question.points:g} marks)</small></h2>")
         if question.rubric:
-            parts.append(markdown(question.rubric))
+            parts += [markdown(rest if heading.startswith("#") else question.text), markdown(question.rubric)]
             continue
         head = _row([f"{escape(item.name)} ({item.marks:g})" for item in question.items], head="id")
         rows = [_row([right(item) for item in own[k].items], head=escape(student)) for student, own in answers.items()]
@@ -62,14 +73,37 @@ def marking_sheet(source: Path, students: Sequence[str]) -> str:
 def right(item: teaching.Item) -> str:
     """What is right, and how near counts: a range for a number; words for the rest."""
     if callable(item.truth):
-        return "a curve: compare with the notebook"
+        return values(item)
     if item.truth is None:
         return "both axes labelled"
     if not item.within:
         return escape(str(item.truth))
     off = tolerance(item)
-    half = f"; half: to {tolerance(item, item.nearly):.3g}" if item.nearly else ""
-    return f"{float(item.truth):.6g} ± {off:.2g}{half}"
+    half = f"; half: ± {_short(tolerance(item, item.nearly))}" if item.nearly else ""
+    return f"{float(item.truth):.6g} ± {_short(off)}{half}"
+
+
+def _short(number: float) -> str:
+    """Two digits, and no power of ten where it can be without."""
+    return f"{float(f'{number:.2g}'):g}"
+
+
+def values(item: teaching.Item) -> str:
+    """A curve at five places of its range, to compare a drawn one with."""
+    low, high = item.over or (0.0, 1.0)
+    at = np.linspace(low, high, 11)[1::2]
+    found = np.asarray(item.truth(at), dtype=float)
+    return "<br>".join(f"{x:.4g}: {y:.4g}" for x, y in zip(at, found, strict=True))
+
+
+def questions_of(source: Path, student_id: str) -> list[teaching.Question]:
+    """The questions of an assignment for one student, computed once for all pages and files."""
+    return _questions(source, student_id, source.stat().st_mtime_ns)
+
+
+@lru_cache(maxsize=4096)
+def _questions(source: Path, student_id: str, _changed: int) -> list[teaching.Question]:
+    return teaching.questions(source, student_id)
 
 
 def tolerance(item: teaching.Item, within: float | None = None) -> float:

@@ -9,14 +9,16 @@ from pathlib import Path
 
 from gearpair.teaching.personal import check_student_id
 
-# headers that stand for a column, in small letters; the first that a file has counts
+# headers that stand for a column, in small letters; the first that a file has counts. Canvas's "ID" is a number of its
+# own, and what students know as theirs is the login beside it.
 HEADERS = {
-    "id": ("id", "student_id", "id number", "username", "sis login id", "login id"),
+    "id": ("sis login id", "id", "student_id", "id number", "username", "login id"),
     "first": ("first_name", "first name", "firstname"),
     "last": ("last_name", "last name", "surname", "lastname"),
     "name": ("name", "full name", "student"),
     "email": ("email", "email address"),
 }
+CANVAS_TEST_STUDENT = "Student, Test"  # a line that Canvas adds to its export
 
 
 @dataclass(frozen=True)
@@ -51,9 +53,9 @@ def read_class(path: str | Path) -> list[Student]:
     Parameters
     ----------
     path : str or Path
-        A CSV file with a line of headers: one of ``id``, ``ID number``, ``Username``, ``SIS Login ID``; a name in one
+        A CSV file with a line of headers: one of ``SIS Login ID``, ``id``, ``ID number``, ``Username``; a name in one
         column (``Name``, ``Student``) or in two (``First name``, ``Last name``); an ``Email``. Only the id must be
-        there. Commas or semicolons; lines without an id are left out.
+        there. Commas or semicolons; lines without an id are left out, and so is Canvas's test student.
 
     Examples
     --------
@@ -75,7 +77,7 @@ def read_class(path: str | Path) -> list[Student]:
     lower = [{str(key).strip().lower(): (value or "").strip() for key, value in row.items() if key} for row in rows]
     if not lower or not any(header in lower[0] for header in HEADERS["id"]):
         raise ValueError(f"{path} must have a line of headers with an id, one of {', '.join(HEADERS['id'])}")
-    students = [_student(row) for row in lower if _column(row, "id")]
+    students = [_student(row) for row in lower if _column(row, "id") and row.get("student") != CANVAS_TEST_STUDENT]
     doubled = sorted(name for name in {s.student_id for s in students} if _count(students, name) > 1)
     if doubled:
         raise ValueError(f"{path} has an id twice: {', '.join(doubled)}")

@@ -23,7 +23,7 @@ PATTERNS = {
 
 @dataclass(frozen=True)
 class Collected:
-    """What an archive held: the ids whose notebook was written, who handed in nothing, a sentence for each oddity."""
+    """What an archive held: the ids whose notebook was in it, who has none there or from before, oddities in words."""
 
     written: tuple[str, ...]
     missing: tuple[str, ...]
@@ -32,6 +32,9 @@ class Collected:
 
 def collect(archive: str | Path, assignment: str, students: Sequence[Student], course: str | Path) -> Collected:
     """Write the notebooks of an archive to ``submitted/ID/ASSIGNMENT/ASSIGNMENT.ipynb`` of a course.
+
+    One that is there already stays as it is, and another in its place is told of: the grader passes over what it has
+    graded, unless it is told to grade it again.
 
     Parameters
     ----------
@@ -65,11 +68,21 @@ def collect(archive: str | Path, assignment: str, students: Sequence[Student], c
         if student in written:
             sentences.append(f"{student}: handed in twice, and {name} is taken instead of {written[student]}")
         written[student] = name
-        path = Path(course) / "submitted" / student / assignment / f"{assignment}.ipynb"
+    for student, name in written.items():
+        path = _place(course, student, assignment)
+        if path.exists() and path.read_bytes() == found[name]:
+            continue
+        if path.exists():
+            again = f"nbgrader autograde {assignment} --student={student} --force"
+            sentences.append(f"{student}: handed in anew; if the earlier one was graded: {again}")
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(found[name])
-    missing = tuple(each.student_id for each in students if each.student_id not in written)
+    missing = tuple(each.student_id for each in students if not _place(course, each.student_id, assignment).exists())
     return Collected(tuple(sorted(written)), missing, tuple(sentences))
+
+
+def _place(course: str | Path, student: str, assignment: str) -> Path:
+    return Path(course) / "submitted" / student / assignment / f"{assignment}.ipynb"
 
 
 def matched(name: str, assignment: str) -> tuple[str, str, str] | None:

@@ -15,6 +15,7 @@ from gearpair.teaching.drawings import Curve, drawing
 HALF = 0.5
 SHARP = 0.02  # relative error within which a typical mistake, or a power of ten, is taken for it
 COVERED = 0.95  # of the range asked for, to count as drawn
+KINDS = {"str": "a text", "bool": "true or false", "list": "a list", "tuple": "a tuple", "ndarray": "an array"}
 AGREEING = 0.95  # of the points in it, to count as right: a point on a jump may be on either side
 
 
@@ -273,11 +274,12 @@ def _missing(answer: Any) -> bool:
 
 
 def _instead_of(wanted: str, given: Any) -> str:
-    if given is None:
+    if given is None or given is ... or (isinstance(given, Unreadable) and given.kind == "ellipsis"):
         return "no answer"
     if isinstance(given, float) and not math.isfinite(given):
         return f"{wanted} was asked for, not {given}"
-    return f"{wanted} was asked for, not {given.kind if isinstance(given, Unreadable) else type(given).__name__}"
+    kind = given.kind if isinstance(given, Unreadable) else type(given).__name__
+    return f"{wanted} was asked for, not {KINDS.get(kind, kind)}"
 
 
 def _range_of(curve: Curve, over: tuple[float, float]) -> tuple[float, float]:

@@ -11,7 +11,8 @@ import pytest
 from gearpair import teaching
 from gearpair.study.cli import main
 from gearpair.study.course_pages import expected_minutes, markdown
-from gearpair.teaching.collecting import matched
+from gearpair.teaching.classes import Student, read_class
+from gearpair.teaching.collecting import collect, matched
 from tests.support import ROOT
 from tests.teach.answers import NAMES
 from tests.teach.conftest import ASSIGNMENTS
@@ -77,6 +78,30 @@ def test_an_archive_is_collected_graded_and_listed(course, class_list, here, tmp
         row = rows[student]
         assert (row["stiffness"], row["stiffness_max"], row["stiffness_state"]) == ("3", "5", "written answers wait")
     assert (rows["emmy"]["stiffness"], rows["emmy"]["stiffness_state"]) == ("", "not handed in")
+
+
+def test_what_is_handed_in_anew_is_told_and_what_is_there_stays(tmp_path):
+    def collected(**notebooks):
+        with zipfile.ZipFile(tmp_path / "all.zip", "w") as packed:
+            for student, text in notebooks.items():
+                packed.writestr(f"{student}/{NAME}.ipynb", text)
+        return collect(tmp_path / "all.zip", NAME, [Student("ada"), Student("emmy")], tmp_path)
+
+    assert collected(ada="1").missing == ("emmy",)
+    again = collected(ada="1", emmy="1")
+    assert (again.missing, again.sentences) == ((), ())
+    late = collected(emmy="2")
+    assert late.missing == () and "--student=emmy --force" in late.sentences[0]
+
+
+def test_canvas_has_a_number_beside_the_login(tmp_path):
+    path = tmp_path / "canvas.csv"
+    path.write_text(
+        "Student,ID,SIS User ID,SIS Login ID,Section\n    Points Possible,,,,\n"
+        '"Lovelace, Ada",12345,9,AL15,A\n"Student, Test",12350,,1f3a,A\n',
+        encoding="utf-8",
+    )
+    assert read_class(path) == [Student("al15", "Ada Lovelace")]
 
 
 @pytest.mark.parametrize(
