@@ -2,7 +2,7 @@
 #   make book         execute the chapters that changed and build the site at _build/html/index.html
 #   make test         run every test
 # Others:
-#   make test-quick   the tests that are not marked slow, in about a minute
+#   make test-quick   the tests that are not marked slow, in some minutes
 #   make teach        grade the whole course headless, in an environment of its own: reference solutions, mistakes,
 #                     hostile submissions, a class of forty
 #   make course       pack the course: gearpair-course-student.zip without solutions, gearpair-course-teacher.zip with them

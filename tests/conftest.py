@@ -19,8 +19,11 @@ FIRST = ("test_layers.py", "test_style.py")
 def pytest_collection_modifyitems(items):
     """The layers are checked before anything else, then the style; then what has most of the slow tests.
 
-    A long file that began last would keep one process at work while the others wait.
+    A long file that began last would keep one process at work while the others wait. What needs a browser is slow.
     """
+    for item in items:
+        if "browser" in item.fixturenames:
+            item.add_marker(pytest.mark.slow)
     slow = Counter(item.path for item in items if item.get_closest_marker("slow"))
     first = {name: place for place, name in enumerate(FIRST)}
     items.sort(key=lambda item: (first.get(item.path.name, len(first)), -slow[item.path]))

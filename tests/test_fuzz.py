@@ -275,7 +275,15 @@ def surprises(function, good):
     return found
 
 
-@pytest.mark.parametrize(("room", "name"), [(room, name) for room, own in CALLS.items() for name in own])
+LONG = {"identify", "critical_shock", "homoclinic_tangency"}  # a call takes a second, and a test some twenty calls
+ASKED = [
+    pytest.param(room, name, marks=[pytest.mark.slow] * (name in LONG), id=f"{room}-{name}")
+    for room, own in CALLS.items()
+    for name in own
+]
+
+
+@pytest.mark.parametrize(("room", "name"), ASKED)
 def test_a_wrong_argument_gets_a_sentence(room, name):
     function, good = getattr(importlib.import_module(f"gearpair.{room}"), name), CALLS[room][name]()
     function(**good)

@@ -50,6 +50,7 @@ def test_twice_of_torque_error_and_backlash_is_the_same_motion_twice_as_large(fo
         assert np.allclose(row[name], 2.0 * half[name], rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_a_relief_follows_the_torque():
     drive = DRIVE.replace(transmission_error_um=0.0, relief=TipRelief(8.0, 8.0, 1 / 3))
     found = load_map(drive, [60.0, 120.0], SPEEDS[::4], n_starts=0)

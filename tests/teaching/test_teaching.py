@@ -219,6 +219,7 @@ def test_an_empty_picture_is_no_answer():
     assert repr(marks) == "0"
 
 
+@pytest.mark.slow
 def test_the_rig_of_everybody_is_identified():
     """The damping and the error that its report hides, to the one per cent that the assignment asks for."""
     for student in STUDENTS[:3]:
