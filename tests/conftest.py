@@ -16,13 +16,14 @@ collect_ignore = ["teeth/finite_elements"] if "GEARPAIR_SITE" in os.environ else
 FIRST = ("test_layers.py", "test_style.py")
 
 
+@pytest.hookimpl(tryfirst=True)  # before tests are chosen by their marks
 def pytest_collection_modifyitems(items):
     """The layers are checked before anything else, then the style; then what has most of the slow tests.
 
     A long file that began last would keep one process at work while the others wait. What needs a browser is slow.
     """
     for item in items:
-        if "browser" in item.fixturenames:
+        if "browser" in getattr(item, "fixturenames", ()):  # a cell of a notebook has none
             item.add_marker(pytest.mark.slow)
     slow = Counter(item.path for item in items if item.get_closest_marker("slow"))
     first = {name: place for place, name in enumerate(FIRST)}
