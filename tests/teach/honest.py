@@ -245,10 +245,10 @@ HONEST: dict[str, dict[str, list[Edit]]] = {
             "noticed",
             "louder_db = 10 * np.log10(np.mean(heard.samples[-n:] ** 2) / np.mean(heard.samples[:n] ** 2))",
         ),
-        "level_at_another_rate": then(
+        "level_of_norms": then(
             "noticed",
-            "heard = design.sound(found.drive, run, rate=16_000)\nn = int(0.3 * heard.rate)\n"
-            "louder_db = 20 * np.log10(heard.samples[-n:].std() / heard.samples[:n].std())",
+            "n = round(0.3 * heard.rate)\n"
+            "louder_db = 20 * np.log10(np.linalg.norm(heard.samples[-n:]) / np.linalg.norm(heard.samples[:n]))",
         ),
     },
 }
