@@ -1,7 +1,7 @@
 // The bifurcation diagram, computed in a worker while one looks: a rising sweep from the start, then a falling one; on
 // demand also the branch of a motion that the two have missed, followed up and down to where it meets what is known. At
 // last all that is chaotic so far is watched on, for as long as the library watches.
-gearpair.define("branches", ["library", "cells", "flow", "settle", "verdict"], function (library, tables, flow, settle, verdict) {
+gearpair.define("branches", ["library", "cells", "flow", "settle", "verdict", "batches"], function (library, tables, flow, settle, verdict, batches) {
   const SETTINGS = { exponentPeriods: library.settling.manyExponentPeriods, samples: 64, watch: library.settling.watch };
   const SAME = 1e-3; // section points of known motions that lie this close are of one motion
 
@@ -63,32 +63,17 @@ gearpair.define("branches", ["library", "cells", "flow", "settle", "verdict"], f
     return one.points.length === 0 || other.points.some((q) => Math.hypot(p.x - q.x, p.v - q.v) < SAME);
   }
 
-  // What runs in the worker. A new order takes the place of the one under way; one with `from` adds to the last.
-  function serve({ columns }, port) {
-    let order = 0;
+  // What runs in the worker: the columns of an order; one with `from` adds to the last.
+  function answer(port) {
     let known = new Map();
-    port.onmessage = ({ data }) => {
-      const own = ++order;
-      if (!data.parameter) return; // an order without one only ends the last
-      if (data.from === undefined) known = new Map();
-      const work = columns(data, known);
-      const go = () => {
-        if (own !== order) return;
-        const batch = [];
-        const end = performance.now() + 120; // seldom enough not to slow a drag
-        let result = { done: false };
-        while (!result.done && performance.now() < end) {
-          result = work.next();
-          if (result.value) batch.push(result.value);
-        }
-        port.postMessage({ id: data.id, batch, done: result.done });
-        if (!result.done) setTimeout(go, 0);
-      };
-      go();
-    };
+    batches.answer(port, (order) => {
+      if (!order.parameter) return null;
+      if (order.from === undefined) known = new Map();
+      return columns(order, known);
+    });
   }
 
-  const start = () => gearpair.use("worker").start("branches", serve);
+  const start = () => gearpair.use("worker").start("branches", (branches, port) => branches.answer(port));
 
-  return { columns, start, serve };
+  return { columns, answer, start };
 });

@@ -3,7 +3,7 @@
 (function (scope) {
   "use strict";
   const MOTION = ["modules", "library", "closed_form", "cells", "certified", "flow", "tangent", "observe", "settle", "measures", "verdict"];
-  const WORK = ["model", "branches", "plane", "worker", "follower"];
+  const WORK = ["model", "batches", "branches", "plane", "worker", "follower"];
   const TEETH = ["state", "player", "view/plot", "view/teeth"];
   const PICTURES = ["view/history", "view/starts", "view/phase", "view/spectrum", "view/diagram", "controls", "readout", "compare", "run_up"];
   const SOUND = ["sounds", "listen"];

@@ -1,6 +1,6 @@
 // The plane of starts: which motion each start of a grid ends on, from coarse to fine, computed in a worker while one
 // looks. Each label is the verdict of `settle`; what is chaotic so far is watched on at last, as long as the library does.
-gearpair.define("plane", ["library", "cells", "flow", "settle", "verdict"], function (library, tables, flow, settle, verdict) {
+gearpair.define("plane", ["library", "cells", "flow", "settle", "verdict", "batches"], function (library, tables, flow, settle, verdict, batches) {
   const [ACROSS, UP] = [48, 32]; // starts
   const BLOCKS = [4, 2, 1]; // of so many starts aside one is followed first, then one of fewer
   const SETTINGS = { exponentPeriods: library.settling.manyExponentPeriods, samples: 1, watch: library.settling.watch };
@@ -60,31 +60,10 @@ gearpair.define("plane", ["library", "cells", "flow", "settle", "verdict"], func
     return other.points.some((q) => Math.max(Math.abs(p.x - q.x), Math.abs(p.v - q.v)) < SAME);
   }
 
-  // What runs in the worker. A new order { id, oscillator, range } takes the place of the one under way; one without an
-  // oscillator only ends it.
-  function serve({ labels }, port) {
-    let order = 0;
-    port.onmessage = ({ data }) => {
-      const own = ++order;
-      if (!data.oscillator) return;
-      const work = labels(data);
-      const go = () => {
-        if (own !== order) return;
-        const batch = [];
-        const end = performance.now() + 120;
-        let result = { done: false };
-        while (!result.done && performance.now() < end) {
-          result = work.next();
-          if (result.value) batch.push(result.value);
-        }
-        port.postMessage({ id: data.id, batch, done: result.done });
-        if (!result.done) setTimeout(go, 0);
-      };
-      go();
-    };
-  }
+  // What runs in the worker: the labels of an order { id, oscillator, range }.
+  const answer = (port) => batches.answer(port, (order) => (order.oscillator ? labels(order) : null));
 
-  const start = () => gearpair.use("worker").start("plane", serve);
+  const start = () => gearpair.use("worker").start("plane", (plane, port) => plane.answer(port));
 
-  return { ACROSS, UP, labels, same, start };
+  return { ACROSS, UP, labels, same, answer, start };
 });
