@@ -46,7 +46,7 @@ gearpair.define(
     const STEPS = [
       {
         title: "Push gently",
-        text: "The upper tooth drives the lower gear to the right. Between them is a little play. Turn slowly:",
+        text: "The upper gear drives the lower one to the right; the picture goes along with the lower. Between their teeth is a little play. Push, and they turn slowly:",
         act: (story) => story.button("Push", () => story.show(found(SLOW))),
         verdict: (story, motion) =>
           apart(motion)
@@ -65,12 +65,12 @@ gearpair.define(
         verdict: (story, motion) =>
           apart(motion)
             ? `The teeth part, and meet again with a blow: ${number(motion.loadFactor)} times the mean force.`
-            : "Still together. Go on.",
+            : "At this speed the teeth stay together. Go on.",
         done: (story, motion) => apart(motion),
       },
       {
         title: "Predict",
-        text: "Faster still. The tooth will fly further into the play. Will it hit the other side?",
+        text: `Faster still: ${FAST} of the resonance. The tooth will fly further into the play. Will it hit the other side?`,
         act: (story) => {
           for (const answer of ["Yes", "No"]) {
             story.button(answer, () => {
@@ -81,15 +81,15 @@ gearpair.define(
         },
         verdict: (story, motion) => {
           const right = hitsTheOther(motion) === (story.answer === "Yes");
-          const turns = `It turns back at X = ${number(motion.low)}, and the other flank is at −1`;
+          const turns = `It turns back after ${(50 * (1 - motion.low)).toFixed(0)}% of the play`; // from X = 1 to −1
           const what = hitsTheOther(motion) ? "It does hit the other side" : turns;
-          return `${right ? "Right." : "Not so."} ${what}. In short, ${WORDS[motion.manner]}.`;
+          return `${right ? "Right." : "Not so."} ${what}. So ${WORDS[motion.manner]}.`;
         },
         done: () => true,
       },
       {
         title: "Nudge it",
-        text: "The same speed and load. Give the moving tooth a push by hand: draw it aside in the picture, or choose here how hard.",
+        text: "The same speed and load. Give the upper tooth a push: drag it sideways in the picture and let go, or choose here how hard.",
         act: (story) => {
           story.show(story.first());
           const entry = { label: "Push", min: -MOST, max: MOST, step: 0.1, value: NUDGE };
@@ -98,9 +98,10 @@ gearpair.define(
           story.button("Nudge", () => story.push(story.nudge.valueAsNumber));
         },
         verdict: (story, motion) => {
-          if (!story.pushed) return `It runs as before: ${WORDS[motion.manner]}.`;
-          if (motion.manner === story.first().manner) return `It comes back to what it did: ${WORDS[motion.manner]}. Push harder.`;
-          return `Nothing but a nudge has changed, and now ${WORDS[motion.manner]}, with ${number(motion.loadFactor)} times the mean force. It stays so.`;
+          const what = `${WORDS[motion.manner]}, with ${number(motion.loadFactor)} times the mean force`;
+          if (!story.pushed) return `Before the nudge ${what}.`;
+          if (motion.manner === story.first().manner) return "It comes back to what it did. Push harder, or the other way.";
+          return `Only a nudge, and now ${what}. It stays so.`;
         },
         done: (story, motion) => story.pushed && motion.manner !== story.first().manner,
       },
@@ -126,7 +127,7 @@ gearpair.define(
           story.show(both[1]);
         },
         verdict: (story) =>
-          `${listen.told(story.listener, story.listener.heard)} ${story.louder} In the explorer: ` +
+          `${listen.told(story.listener, story.listener.heard)} ${story.louder} See them in the explorer: ` +
           `${story.both().map((motion) => `<a href="${address(motion)}">the ${motion.manner}</a>`).join(", ")}.`,
         done: () => false,
       },
