@@ -113,7 +113,7 @@ def _phase(chart: xr.Dataset) -> str:
     if chart.attrs["error_phase"] == "unknown":
         worst = np.degrees(chart.attrs["run_phase_rad"])
         return (
-            "How the error stands to the stiffness wave, its phase, is on no drawing: of the phases that were tried "
+            "No drawing gives the phase of the error against the stiffness wave; of those that were tried "
             f"{worst:.0f}° is the worst, and the verdict holds for all."
         )
     return "No phase had to be chosen: that of the error is given, or there is no error."

@@ -85,7 +85,7 @@ gearpair.define("chart/verdict", ["chart/data", "chart/numbers"], function (data
   function phaseSentence({ phases, chosen, unknown }) {
     if (!unknown) return "No phase had to be chosen: that of the error is given, or there is no error.";
     return (
-      "How the error stands to the stiffness wave, its phase, is on no drawing: of the phases that were tried " +
+      "No drawing gives the phase of the error against the stiffness wave; of those that were tried " +
       `${degrees(phases[chosen])} is the worst, and the verdict holds for all.`
     );
   }
