@@ -1,5 +1,5 @@
 // The chart's work, shared by workers: orders in, rows out as they are known.
-gearpair.define("chart/worker", ["chart/motions", "chart/standards", "chart/drive"], function ({ rows }, { linearFactors }, { oscillatorAt }) {
+gearpair.define("chart/worker", ["batches", "chart/motions", "chart/standards", "chart/drive"], function ({ deliver }, { rows }, { linearFactors }, { oscillatorAt }) {
   const SLICE = 40; // milliseconds between two looks for another order
 
   // What answers orders: { id, ...order of `rows` }, or { id, linear: true, drive, speeds, phase }; one without an id ends
@@ -14,20 +14,7 @@ gearpair.define("chart/worker", ["chart/motions", "chart/standards", "chart/driv
         post({ id: order.id, linear: order.speeds.map((rpm) => factor(oscillatorAt(order.drive, rpm, order.phase))), done: true });
         return;
       }
-      const work = rows(order);
-      const go = () => {
-        if (own !== turn) return;
-        const batch = [];
-        const end = performance.now() + SLICE;
-        let result = { done: false };
-        while (!result.done && performance.now() < end) {
-          result = work.next();
-          if (result.value) batch.push(result.value);
-        }
-        post({ id: order.id, batch, done: result.done });
-        if (!result.done) setTimeout(go, 0);
-      };
-      go();
+      deliver(rows(order), () => own === turn, (batch, done) => post({ id: order.id, batch, done }), SLICE);
     };
   }
 

@@ -10,7 +10,7 @@
   const PARTS = {
     motion: [...MOTION, ...WORK, "sounds"],
     explorer: [...MOTION, ...WORK, ...TEETH, ...PICTURES, ...SOUND, "story", "challenges", "explorer"],
-    teeth: [...MOTION, ...TEETH], // for a page with pictures of its own
+    teeth: [...MOTION, "batches", ...TEETH], // for a page with pictures of its own
     story: [...MOTION, ...WORK, ...TEETH, ...SOUND, "story"],
   };
   scope.gearpairParts = PARTS;
