@@ -43,9 +43,17 @@ SETTING = (
     "DRIVE = gp.GearDrive.from_pair(gp.SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,"
     " transmission_error_um=5.0, damping_ratio=0.02)\n"
 )
+# Python drops an interrupt that falls into a callback of its garbage collector, and tells this hook: press once more.
 CHILD = (
     SETTING
     + """
+import os, signal, threading
+def pressed_again(dropped):
+    if dropped.exc_type is KeyboardInterrupt:
+        threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT)).start()
+    else:
+        sys.__unraisablehook__(dropped)
+sys.unraisablehook = pressed_again
 for line in sys.stdin:
     print("begun", flush=True)
     try:
