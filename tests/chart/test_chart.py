@@ -24,6 +24,7 @@ CHANGES = [
     {"addendum": 1.3, "pinion_teeth": 40, "pressure_angle_deg": 17.5, "backlash_um": 20.0, "lowest_rpm": 2000.0},
     {"gear_shift": 0.4, "profile_um": 3.0, "pinion_torque_nm": 900.0, "transmission_error_um": 1.0},
 ]
+State = dict[str, Any]
 DRAW = """({ state, count, nStarts }) => {
   const d = gearpair.use("chart/drive"), v = gearpair.use("chart/verdict"), s = gearpair.use("chart/standards");
   const drive = d.driveOf(state), speeds = d.speedsOf(drive, count), phases = d.phasesOf(drive);
@@ -39,7 +40,7 @@ NAMES = {"factor": "dynamic_factor", "apart": "time_apart", "meshForce": "mesh_f
 NAMES |= {"rate": "impact_rate", "velocity": "impact_velocity", "rms": "dte_rms"}
 
 
-def drive_of(state: dict[str, Any]) -> GearDrive:
+def drive_of(state: State) -> GearDrive:
     """The chapter's own way from its parameters to a drive."""
     own = ("pinion_teeth", "gear_teeth", "module_mm", "face_width_mm", "pressure_angle_deg", "addendum", "clearance")
     pair = SpurPair(**{name: state[name] for name in (*own, "pinion_shift", "gear_shift", "bore_ratio")})
