@@ -9,7 +9,7 @@ gearpair.define(
     const SLOW = 0.25; // mesh frequencies, in natural frequencies
     const FASTER = 0.45; // where the second step's slider ends
     const FAST = 0.7; // the baseline's
-    const NUDGE = 0.5; // where the slider of nudges stands at first: of X', and it goes to MOST either way
+    const NUDGE = 1.5; // where the slider of nudges stands at first: of X', and it goes to MOST either way
     const MOST = 2;
     const TRANSIENT = 3; // mesh periods that are shown of what follows a nudge
     const SHOWN = 8; // mesh periods, about, of a settled motion
@@ -46,7 +46,7 @@ gearpair.define(
     const STEPS = [
       {
         title: "Push gently",
-        text: "The upper gear drives the lower one to the right; the picture goes along with the lower. Between their teeth is a little play. Push, and they turn slowly:",
+        text: "The upper gear drives the lower one to the right; the picture goes along with the lower. There is a little play between them.",
         act: (story) => story.button("Push", () => story.show(found(SLOW))),
         verdict: (story, motion) =>
           apart(motion)
@@ -56,7 +56,7 @@ gearpair.define(
       },
       {
         title: "Raise the speed",
-        text: "Now faster, until the tooth leaves its flank:",
+        text: "Until the tooth leaves its flank:",
         act: (story) => {
           story.show(found(SLOW));
           const entry = { label: "Speed", min: SLOW, max: FASTER, step: 0.01, value: SLOW };
@@ -70,7 +70,7 @@ gearpair.define(
       },
       {
         title: "Predict",
-        text: `Faster still: ${FAST} of the resonance. The tooth will fly further into the play. Will it hit the other side?`,
+        text: `Faster still, at ${FAST} of the resonance: will the tooth hit the other side?`,
         act: (story) => {
           for (const answer of ["Yes", "No"]) {
             story.button(answer, () => {
@@ -89,7 +89,7 @@ gearpair.define(
       },
       {
         title: "Nudge it",
-        text: "The same speed and load. Give the upper tooth a push: drag it sideways in the picture and let go, or choose here how hard.",
+        text: "The same speed, the same load. Push the upper tooth: here, or drag it sideways and let go.",
         act: (story) => {
           story.show(story.first());
           const entry = { label: "Push", min: -MOST, max: MOST, step: 0.1, value: NUDGE };
@@ -107,7 +107,7 @@ gearpair.define(
       },
       {
         title: "Listen to both",
-        text: `The tooth force as sound, for a mesh resonance at ${listen.NATURAL.value} Hz. It is not the noise of a gearbox: shafts, bearings and housing are not in it.`,
+        text: `Tooth force as sound, not your gearbox; the resonance of the mesh is set to ${listen.NATURAL.value} Hz.`,
         act: (story) => {
           const both = story.both();
           const heard = both.map(({ state, settled }) =>
