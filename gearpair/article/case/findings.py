@@ -116,13 +116,14 @@ def after_watching(best: Sequence[Hypothesis], leading: Sequence[Hypothesis]) ->
     Examples
     --------
     >>> after_watching([SWAPPED], [SWAPPED]), after_watching([SWAPPED], [PRINTED])
-    ('the same one leads', '1 leads, none of them among these')
+    ('the same one leads', 'another leads')
     """
-    verb = "leads" if len(leading) == 1 else "lead"
+    one, kept = len(leading) == 1, len({*best} & {*leading})
     if set(best) == set(leading):
-        return f"the same {'one' if len(leading) == 1 else len(leading)} {verb}"
-    kept = len({*best} & {*leading})
-    return f"{len(leading)} {verb}, {kept or 'none'} of them among these"
+        return "the same one leads" if one else f"the same {len(leading)} lead"
+    if one:
+        return "one of these leads" if kept else "another leads"
+    return f"{len(leading)} lead, {kept or 'none'} of them among these"
 
 
 @checked
