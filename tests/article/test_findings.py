@@ -72,3 +72,9 @@ def test_the_score_may_prefer_either_wave_or_none():
     assert case.score_headline(0.4, 0.4).endswith("does not prefer the swapped wave in this run.")
     assert case.score_headline(0.8, 0.4).endswith("and clearly.")
     assert case.behind(-0.3) == "0.30 ahead of" and case.behind(0.0) == "level with"
+
+
+def test_a_share_of_random_tables_too_small_to_count_is_not_called_none():
+    assert "tables fewer than one in a hundred are met" in case.met_by_chance(3, 0.004)
+    assert "tables 60 in a hundred are met" in case.met_by_chance(1, 0.6)
+    assert case.met_by_chance(0, 1.0).startswith("A search that meets none says nothing")

@@ -192,9 +192,8 @@ def met_by_chance(most: int, chance: float) -> str:
     """
     if most == 0:
         return "A search that meets none says nothing: its grid is too coarse, or its settings are far off."
-    return (
-        f"Of a thousand random tables {100 * chance:.0f} in a hundred are met as well by some diagram of this search."
-    )
+    share = f"{100 * chance:.0f}" if chance >= 0.01 else "fewer than one"
+    return f"Of a thousand random tables {share} in a hundred are met as well by some diagram of this search."
 
 
 @checked
