@@ -263,7 +263,7 @@ def disorder_told(exact: xr.Dataset, drawn: xr.Dataset, control: xr.Dataset) -> 
     told = f"Of the frequencies {looks} look disordered, and {unsettled} did not settle while they were watched."
     if not made_up.any():
         return f"{told} No motion that is periodic in the end is drawn as disorder."
-    told += f" At {coarse_share(made_up)} the diagram is disordered and the motion periodic in the end"
+    told += f" At {coarse_share(made_up)} of them the diagram is disordered and the motion periodic in the end"
     own = made_up & ~shared
     if not own.any():
         return f"{told}, and the exact flow, drawn by the same rules, is as disordered there: none of it is numerical."
