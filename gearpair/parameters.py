@@ -36,7 +36,8 @@ SPEEDS = ("lowest_rpm", "highest_rpm")  # none: the chapter's choice
 SECONDS = ("ramp_seconds", "tip_in_seconds")
 RANGES = (("lowest", "highest"), ("lower", "upper"), ("frequency_from", "frequency_to"), SPEEDS)
 AXES = ("n_values", "n_fine", "n_x", "n_v", "n_speeds")  # from one end to another
-FEWEST = dict.fromkeys(AXES, 2) | {"n_transient": 0, "n_starts": 0, "n_speeds": 5}  # of another n_... : 1
+PAIRS = (*AXES, "n_reached", "n_steps", "n_phases")  # of n_reached half as many dampings
+FEWEST = dict.fromkeys(PAIRS, 2) | {"n_transient": 0, "n_starts": 0, "n_speeds": 5}
 # What a chapter computes in one go: as many motions as these numbers make together, where it has them.
 PARTS = (
     *(("n_values",), ("n_fine",), ("n_reached",), ("n_x", "n_v"), ("n_frequency", "n_other")),

@@ -50,7 +50,7 @@ CHANGED = {
         **{"n_long": "100", "n_watched": "10000"},
     },
     "method": {"mesh_frequency": "0.95", "reading": "swapped", "n_starts": "2", "n_values": "11"},
-    "reproduction": {"n_reached": "4", "phase_step": "60"},
+    "reproduction": {"n_reached": "2", "phase_step": "90"},
     "reproduction_appendix": {"n_values": "11", "n_fine": "21", "n_search": "11", "n_steps": "2", "n_phases": "2"},
     "library": {"upper": "0.8", "n_values": "21", "damping_ratio": "0.2"},  # both starts lead to one motion
     "impacts": {"mean_force": "0.25", "damping_ratio": "0.06", "reading": "swapped", "n_x": "13", "n_v": "9"},

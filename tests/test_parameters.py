@@ -24,7 +24,7 @@ DRIVE = {"pinion_torque_nm": 120.0, "backlash_um": 100.0, "transmission_error_um
         ({"pinion_teeth": 34, "coupling": "sum"}, "coupling must be one of 'summed', 'ring', 'clamped', got 'sum'"),
         ({"pinion_teeth": 34, "coupling": "ring", "foundation": False}, "it needs foundation=True"),
         ({"n_values": 1}, "n_values must be a whole number of at least 2, got 1"),
-        ({"n_reached": 0}, "n_reached must be a whole number of at least 1, got 0"),
+        ({"n_reached": 1}, "n_reached must be a whole number of at least 2, got 1"),
         ({**DRIVE, "backlash_um": -1.0}, "backlash_um must be a finite number above 0, got -1.0"),
         ({**DRIVE, "pinion_torque_nm": 0.0}, "pinion_torque_nm must be a finite number above 0, got 0.0"),
         ({**DRIVE, "pinion_torque_nm": -5.0}, "pinion_torque_nm must be a finite number above 0, got -5.0"),

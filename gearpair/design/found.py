@@ -15,7 +15,7 @@ KEPT = ""  # the teeth stay in contact
 FLOAT, RARE, HISTORY, ALWAYS, BOTH, UNBOUNDED = LOSSES = (  # what the teeth do else, the worst last
     "float in the backlash without impacts",
     "part after a shock alone, not when run up or down",
-    "part after one way of running there and not after another",
+    "part or stay in contact, depending on how the speed is reached",
     "part and strike, however the speed is reached",
     "strike on both flanks",
     "leave what the model can follow",

@@ -93,7 +93,7 @@ def _range(chart: xr.Dataset, first: int, last: int) -> SpeedRange:
     return SpeedRange(
         _edge(chart, first, min),
         _edge(chart, last, max),
-        f"the teeth {', elsewhere '.join(ways)}",
+        f"the teeth {'; at other speeds they '.join(ways)}",
         tuple(dict.fromkeys(there.motion.sel(run="worst").values.tolist())),
         dynamic_factor=float(there.factor_high.max()),
         time_apart=float(there.time_apart_high.max()),

@@ -29,6 +29,7 @@ EXACT, COMPILED = "exact flow", "RK45, compiled"
 INTEGRATORS = ("RK45", "DOP853", "LSODA")
 ATOL_SHARE = 1e-3  # atol = rtol / 1000, as scipy's defaults are
 TIMED_PERIODS = 1000  # of one compiled run
+A_SMALL_PART = 0.25  # of the values at which a diagram is disordered, what is called so is smaller
 CUT = 0.38  # where `split_levels` divides each level
 
 
@@ -235,6 +236,63 @@ def disorder_table(exact: xr.Dataset, drawn: Mapping[str, xr.Dataset]) -> Table:
         missed = (exact.status.values != "periodic") & (diagram.period.values > 0)
         rows.append([name, coarse_share(numerical_chaos(exact, diagram)), coarse_share(missed)])
     return Table(["drawn by", "disordered though periodic", "periodic though not"], rows)
+
+
+@checked
+def disorder_told(exact: xr.Dataset, drawn: xr.Dataset, control: xr.Dataset) -> str:
+    """How much of a diagram drawn by an integrator is disordered, and whether the rules or the integrator made it so.
+
+    Parameters
+    ----------
+    exact, drawn : xarray.Dataset
+        As for `numerical_chaos`.
+    control : xarray.Dataset
+        The exact flow under the rules of `drawn`, of `plain_sweep`.
+
+    Examples
+    --------
+    >>> from gearpair import sweep
+    >>> from gearpair.methods import plain_sweep, runge_kutta_sweep
+    >>> osc, values = Oscillator(), [1.65, 1.7]
+    >>> made = [draw(osc, "mesh_frequency", values) for draw in (sweep, runge_kutta_sweep, plain_sweep)]
+    >>> disorder_told(*made).split(": ")[-1]
+    'the exact flow, drawn by the same rules, is in order at these.'
+    """
+    made_up, shared = (numerical_chaos(exact, each) for each in (drawn, control))
+    looks, unsettled = coarse_share(drawn.period.values == 0), coarse_share(exact.status.values != "periodic")
+    told = f"Of the frequencies {looks} look disordered, and {unsettled} did not settle while they were watched."
+    if not made_up.any():
+        return f"{told} No motion that is periodic in the end is drawn as disorder."
+    told += f" At {coarse_share(made_up)} of them the diagram is disordered and the motion periodic in the end"
+    own = made_up & ~shared
+    if not own.any():
+        return f"{told}, and the exact flow, drawn by the same rules, is as disordered there: none of it is numerical."
+    if np.array_equal(own, made_up):
+        return f"{told}. All of this is numerical: the exact flow, drawn by the same rules, is in order at these."
+    part = "a small part" if np.sum(made_up & shared) < A_SMALL_PART * np.sum(made_up) else "a good part"
+    size = "more" if np.mean(own) > 0.5 else "less"
+    return (
+        f"{told}. At {part} of these frequencies the exact flow, drawn by the same rules, is disordered as well. "
+        f"At the others, {size} than half of the axis, the disorder is numerical."
+    )
+
+
+@checked
+def loosest_told(measured: Sequence[Precision], method: str = "RK45") -> str:
+    """By how much a method is wrong at the loosest of its tolerances, beside what was asked for.
+
+    Examples
+    --------
+    >>> loosest_told([Precision("RK45", 1e-3, error, 1.0) for error in (0.05,)])
+    'more than 0.01, although 0.001 was asked for'
+    >>> loosest_told([Precision("RK45", 1e-3, 2e-4, 1.0)])
+    'less than the 0.001 that was asked for'
+    """
+    loosest = max((each for each in measured if each.method == method), key=lambda each: each.rtol)
+    asked = f"{loosest.rtol:g}"
+    if loosest.error > 10.0 * loosest.rtol:
+        return f"more than {10.0 * loosest.rtol:g}, although {asked} was asked for"
+    return f"{'more' if loosest.error > loosest.rtol else 'less'} than the {asked} that was asked for"
 
 
 @checked

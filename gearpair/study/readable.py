@@ -29,8 +29,8 @@ class Names:
     """What references are replaced by; the ones that are not found stay.
 
     `own` are the page's labels and `others` those of the book's other pages, as their titles and the labels that are
-    there; `titles` are the pages', by the names of their files; `glued` are texts, `cited` authors and years. `terms`
-    are words, unless there is a glossary to lead to.
+    there; `titles` are the pages', by the names of their files, and a chapter's has its suffix; `glued` are texts,
+    `cited` authors and years. `terms` are words, unless there is a glossary to lead to.
     """
 
     others: Mapping[str, str]
@@ -71,7 +71,8 @@ class Names:
         shown, target = found[1], found[2]
         page = Path(target.partition("#")[0])
         if page.suffix in (".ipynb", ".md", ".rst"):
-            return shown or (f"“{self.titles[page.stem]}”" if page.stem in self.titles else page.stem)
+            title = self.titles.get(page.name if page.suffix == ".ipynb" else page.stem)
+            return shown or (f"“{title}”" if title else page.stem)
         label = target.removeprefix("#")
         known = self.own.get(label, self.others.get(label))
         return found[0] if known is None else shown or known
@@ -129,7 +130,8 @@ def _names(notebook: nbformat.NotebookNode, book: Book, beside: Collection[str] 
     titles: dict[str, str] = {}
     for file in [str(book.toc["root"]), *book.pages()]:
         text = _page(book, file)
-        titles[Path(file).name] = title = (re.findall("^# (.*)$", text, re.MULTILINE) or [Path(file).name])[0]
+        title = (re.findall("^# (.*)$", text, re.MULTILINE) or [Path(file).name])[0]
+        titles[f"{Path(file).name}.ipynb" if file.startswith(EXECUTED) else Path(file).name] = title
         if file not in beside:
             headings = dict(HEADED.findall(text))
             for label in _labels(text):
@@ -148,9 +150,12 @@ def _page(book: Book, file: str) -> str:
     return "\n\n".join(_texts(chapter))
 
 
-def _texts(notebook: nbformat.NotebookNode) -> list[str]:
+def _texts(notebook: nbformat.NotebookNode, *, hidden: bool = True) -> list[str]:
+    """The text cells and the names of figures; unless `hidden`, without those that the page does not show."""
     texts = []
     for cell in notebook.cells:
+        if not hidden and "remove-cell" in cell.metadata.get("tags", []):
+            continue
         if cell.cell_type == "markdown":
             texts.append(cell.source)
         elif name := cell.metadata.get("mystnb", {}).get("figure", {}).get("name"):
@@ -172,7 +177,7 @@ def _elsewhere(label: str, title: str) -> str:
 
 def _own(notebook: nbformat.NotebookNode) -> dict[str, str]:
     """What the labels of the notebook are called in it: numbers of figures and formulas, titles of the rest."""
-    text = "\n\n".join(_texts(notebook))
+    text = "\n\n".join(_texts(notebook, hidden=False))
     figures = [label for label in re.findall("^:name: (.*)$", text, re.MULTILINE) if label.startswith("fig-")]
     named = {label: f"Figure {number}" for number, label in enumerate(figures, 1)}
     named |= {label: f"({number})" for number, label in enumerate(EQUATION.findall(text), 1)}

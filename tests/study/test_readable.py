@@ -117,6 +117,19 @@ def test_nothing_raw_is_left_of_any_chapter(chapter):
     assert nbformat.writes(notebook) == before
 
 
+def test_a_page_and_a_chapter_of_one_name_are_told_apart():
+    text = prose(readable(nbformat.read(BOOK.chapter("method").path, as_version=4), BOOK))
+    assert "rests on the claims of “The method”:" in text
+
+
+@pytest.mark.parametrize("name", ["stiffness", "reproduction"])
+def test_figures_are_counted_without_those_that_are_not_shown(name):
+    """A stamp for another page has a name too."""
+    text = prose(readable(nbformat.read(BOOK.chapter(name).path, as_version=4), BOOK))
+    numbers = [int(number) for number in re.findall(r"^\*Figure (\d+)\.\*", text, re.MULTILINE)]
+    assert numbers == [*range(1, len(numbers) + 1)] and len(numbers) > 2
+
+
 def test_what_the_renderer_can_do_is_left_to_it(pages):
     notebook = nbformat.read(pages.root / "notebooks" / "small.ipynb", as_version=4)
     text = prose(without_ways_out(notebook, pages, ["book/introduction"]))

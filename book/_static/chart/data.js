@@ -318,7 +318,7 @@ gearpair.define("chart/data", [], function () {
     "",
     "float in the backlash without impacts",
     "part after a shock alone, not when run up or down",
-    "part after one way of running there and not after another",
+    "part or stay in contact, depending on how the speed is reached",
     "part and strike, however the speed is reached",
     "strike on both flanks",
     "leave what the model can follow"

@@ -48,7 +48,7 @@ gearpair.define("chart/verdict", ["chart/data", "chart/numbers"], function (data
       const told = unknown && numbers(factors).length > 0;
       return {
         lower: edge(first), upper: edge(last),
-        why: `the teeth ${ways.join(", elsewhere ")}`,
+        why: `the teeth ${ways.join("; at other speeds they ")}`,
         factor: orNaN(largest(factors)),
         apart: orNaN(largest(chart.apartHigh.slice(first, last))),
         velocity: orNaN(largest(chart.velocityHigh.slice(first, last))),

@@ -10,6 +10,18 @@ from gearpair.article.case.boundaries import (
     named_bifurcation,
 )
 from gearpair.article.case.existence import STARTS, WATCHED, Reached, reached, shared_boundaries
+from gearpair.article.case.findings import (
+    after_watching,
+    behind,
+    best_durations,
+    best_phase,
+    chaos_at_small_damping,
+    headline,
+    how_they_differ,
+    met_by_chance,
+    score_headline,
+    which_reading,
+)
 from gearpair.article.case.items import Evidence, judge_items
 from gearpair.article.case.scoring import Match, Score, axis, published_motions, random_tables, score
 from gearpair.article.case.search import (
@@ -47,18 +59,26 @@ __all__ = [
     "Trial",
     "Verdict",
     "WATCHED",
+    "after_watching",
     "all_hypotheses",
     "all_protocols",
     "asked_phase_table",
     "asked_phases",
     "axis",
+    "behind",
+    "best_durations",
+    "best_phase",
     "bifurcations_of",
     "boundaries_met",
     "boundary_table",
+    "chaos_at_small_damping",
     "count_verdicts",
     "counter_evidence",
     "distance_from_bifurcations",
+    "headline",
+    "how_they_differ",
     "judge_items",
+    "met_by_chance",
     "most_met_by_chance",
     "named_bifurcation",
     "periods",
@@ -70,8 +90,10 @@ __all__ = [
     "score",
     "score_by_choice",
     "score_by_start",
+    "score_headline",
     "search_table",
     "shared_boundaries",
     "two_rotor_difference",
     "verdict_table",
+    "which_reading",
 ]

@@ -84,23 +84,23 @@ def search_table(families: Mapping[str, tuple[Sequence[Trial], Sequence[Trial]]]
     -------
     Table
         The last column is the share of a thousand random tables of which some setting of the first reading meets as
-        many boundaries.
+        many boundaries. Where none is met, no setting is best.
 
     Examples
     --------
     >>> from gearpair.article import PRINTED, SWAPPED
     >>> from gearpair.article.case import Protocol, run_trials
     >>> printed, swapped = ([trial] for trial in run_trials([PRINTED, SWAPPED], [Protocol("down")], 6))
-    >>> search_table({"seeding": (swapped, printed)}).rows[0][3]
-    'exact flow, down'
+    >>> search_table({"seeding": (swapped, printed)}).rows[0][2:4]
+    ('0 of 8', '–')
     """
     rows = []
     for name, (trials, others) in families.items():
         best = max(trials, key=boundaries_met)
         most = boundaries_met(best)
         chance = float(np.mean(most_met_by_chance(trials) >= most))
-        setting = f"{best.integrator or 'exact flow'}, {best.protocol.seeding}"
-        if best.hypothesis.phase:
+        setting = f"{best.integrator or 'exact flow'}, {best.protocol.seeding}" if most else "–"
+        if most and best.hypothesis.phase:
             setting += f", phase {np.radians(best.hypothesis.phase):+.3f}"
         rows.append([name, len(trials), f"{most} of 8", setting, max(map(boundaries_met, others)), f"{chance:.2f}"])
     columns = ["varied", "diagrams", "best meets", "best setting", "the other reading meets", "by chance as many"]
