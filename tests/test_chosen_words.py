@@ -12,9 +12,9 @@ from tests.support.notebooks import glued
 @pytest.mark.parametrize(
     ("teeth", "start"),
     [
-        ((34, 34), "On either gear they part at the base circle."),
-        ((20, 80), "On the pinion they part at the base circle; on the gear that circle lies inside the root circle"),
-        ((80, 20), "On the gear they part at the base circle; on the pinion that circle lies inside the root circle"),
+        ((34, 34), "On either gear they part near the base circle."),
+        ((20, 80), "On the pinion they part near the base circle; on the gear that circle lies inside the root circle"),
+        ((80, 20), "On the gear they part near the base circle; on the pinion that circle lies inside the root circle"),
         ((54, 60), "On either gear the base circle lies inside the root circle"),
     ],
 )
@@ -29,7 +29,9 @@ def test_where_the_roots_of_the_drawn_teeth_part(teeth, start):
 def test_another_bore_is_told_as_it_comes_out(bore, foundation, other, words):
     pair = gp.SpurPair(bore_ratio=bore)
     made = {"root": "trochoid", "foundation": foundation, "coupling": "summed"}
-    texts = glued("tooth_bending", "tooth-bore-b", pair=pair, bore_ratio=bore, mesh=gp.mesh_stiffness(pair, **made), **made)
+    texts = glued(
+        "tooth_bending", "tooth-bore-b", pair=pair, bore_ratio=bore, mesh=gp.mesh_stiffness(pair, **made), **made
+    )
     assert texts["other_bore"] == other and words in texts["bored"]
 
 
@@ -66,7 +68,12 @@ def test_whether_the_past_shows_is_read_from_the_three_ways(ways, said, not_said
 @pytest.mark.parametrize(
     ("x", "state", "damping", "said"),
     [
-        (1.5, ("periodic", 1), 0.02, "The energy steps at the switches at which the teeth are pressed, and in the figure"),
+        (
+            1.5,
+            ("periodic", 1),
+            0.02,
+            "The energy steps at the switches at which the teeth are pressed, and in the figure",
+        ),
         (0.5, ("periodic", 1), 0.02, "which they are at none of the figure"),
         (1.5, ("escaped", None), 0.02, "The motion of the figure escapes."),
         (0.5, ("aperiodic", None), 0.0, "Without damping no motion settles"),
@@ -100,3 +107,35 @@ def test_whether_the_damper_takes_the_limit_is_seen(ratio, said):
     osc = gp.Oscillator(stiffness=wave)
     slow = osc.mean_force**2 * (soft + stiff) / 2 * (1 / soft - 1 / stiff) ** 2
     assert said in glued("others", "others-43", osc=osc, slow=slow)["at_limit"]
+
+
+@pytest.mark.parametrize(
+    ("captured", "said", "not_said"),
+    [
+        ([100.0] * 30, "Half of the motions are captured after about 100, which needs no nine digits", "%"),
+        ([100.0] * 20, "Of the motions 66.7% were captured, half of them after about 100", "Half of the motions"),
+        ([900.0] * 30, "Half of the motions are captured after about 900. One in twenty", "nine digits"),
+        ([], "None of the motions was seen to be captured.", "nan"),
+    ],
+)
+def test_how_long_is_long_enough_is_told_of_what_was_captured(captured, said, not_said):
+    plane = SimpleNamespace(settling_time=np.empty(30))
+    results = {"captured": np.array(captured), "plane": plane, "needed": 446.0}
+    told = glued("damping_sweep", "ex-damping-how-long-told", **results)["captured"]
+    assert said in told and not_said not in told
+
+
+@pytest.mark.parametrize(
+    ("statuses", "upper", "said"),
+    [
+        (["periodic"] * 3, 0.025, "Nothing happens on the way: from end to end and back the sweeps keep to period 2."),
+        (["periodic"] * 3, 0.01, "ranges narrower than 0.0005"),
+        (["periodic", "aperiodic", "periodic"], 0.025, "but for chaos"),
+    ],
+)
+def test_what_the_sweeps_met_on_the_way(statuses, upper, said):
+    swept = SimpleNamespace(status=SimpleNamespace(values=np.array(statuses)))
+    found = [SimpleNamespace(motion="period 2", lower=0.0005, upper=upper)]
+    results = {"falling": [swept], "rising": [swept], "found": found, "narrowest": 0.0005}
+    texts = glued("damping_sweep", "damping-carried-told", dampings=np.array([0.0005, 0.01, 0.025]), **results)
+    assert said in texts["carried"]
