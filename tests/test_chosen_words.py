@@ -74,7 +74,7 @@ def test_whether_the_past_shows_is_read_from_the_three_ways(ways, said, not_said
             0.02,
             "The energy steps at the switches at which the teeth are pressed, and in the figure",
         ),
-        (0.5, ("periodic", 1), 0.02, "which they are at none of the figure"),
+        (0.5, ("periodic", 1), 0.02, "and in the figure they are so at none"),
         (1.5, ("escaped", None), 0.02, "The motion of the figure escapes."),
         (0.5, ("aperiodic", None), 0.0, "Without damping no motion settles"),
     ],
@@ -128,13 +128,15 @@ def test_how_long_is_long_enough_is_told_of_what_was_captured(captured, said, no
 @pytest.mark.parametrize(
     ("statuses", "upper", "said"),
     [
+        (["periodic"] * 3 + ["other state"], 0.025, "but not each to one impact state"),
         (["periodic"] * 3, 0.025, "Nothing happens on the way: from end to end and back the sweeps keep to period 2."),
         (["periodic"] * 3, 0.01, "ranges narrower than 0.0005"),
         (["periodic", "aperiodic", "periodic"], 0.025, "but for chaos"),
     ],
 )
 def test_what_the_sweeps_met_on_the_way(statuses, upper, said):
-    swept = SimpleNamespace(status=SimpleNamespace(values=np.array(statuses)))
+    states = SimpleNamespace(values=["double"] * 2 + ["single_drive" if "other state" in statuses else "double"])
+    swept = SimpleNamespace(status=SimpleNamespace(values=np.array(statuses[:3])), impact_state=states)
     found = [SimpleNamespace(motion="period 2", lower=0.0005, upper=upper)]
     results = {"falling": [swept], "rising": [swept], "found": found, "narrowest": 0.0005}
     texts = glued("damping_sweep", "damping-carried-told", dampings=np.array([0.0005, 0.01, 0.025]), **results)
