@@ -141,3 +141,11 @@ def test_what_the_sweeps_met_on_the_way(statuses, upper, said):
     results = {"falling": [swept], "rising": [swept], "found": found, "narrowest": 0.0005}
     texts = glued("damping_sweep", "damping-carried-told", dampings=np.array([0.0005, 0.01, 0.025]), **results)
     assert said in texts["carried"]
+
+
+@pytest.mark.parametrize(("entropy", "above"), [(0.6934, "none of them"), (0.72, '"other reading"')])
+def test_a_boundary_is_called_fractal_by_the_number_that_the_table_shows(entropy, above):
+    shares = SimpleNamespace(attractor_share=np.array([0.6, 0.4]), attractor_impact_state=["double", "single_drive"])
+    mixed = [SimpleNamespace(entropy=0.2, boundary_entropy=value) for value in (0.4, entropy, 0.5)]
+    planes = {"plane": shares, "swapped": shares, "weaker": shares, "less": "weaker damping", "entropies": mixed}
+    assert glued("impacts", "cell30", **planes)["above"] == above
