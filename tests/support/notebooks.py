@@ -3,7 +3,11 @@
 from pathlib import Path
 
 import nbformat
+import numpy as np
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+
+import gearpair as gp
+from tests.support import ROOT
 
 PARAMETERS = "a: float = 0.116  # stiffness added in double contact"
 MEAN = "import gearpair as gp\nprint(f'{gp.StiffnessWave.rectangular(a=a).mean:.4f}')"
@@ -16,3 +20,13 @@ def write_notebook(path: Path, *code: str, parameters: str = PARAMETERS, tags: t
     notebook = new_notebook(metadata=kernel, cells=[*cells, *map(new_code_cell, code)])
     nbformat.write(notebook, path)
     return path
+
+
+def glued(chapter: str, cell: str, **names) -> dict[str, str]:
+    """What one cell of a chapter glues into the text, run by itself on the results that it is given by `names`."""
+    notebook = nbformat.read(ROOT / "notebooks" / f"{chapter}.ipynb", as_version=4)
+    (source,) = (each.source for each in notebook.cells if each.get("id") == cell)
+    texts: dict[str, str] = {}
+    known = {"np": np, "gp": gp, "glue": lambda name, text, display: texts.update({name: text})}
+    exec(source, {**known, **names})
+    return texts

@@ -1,0 +1,151 @@
+"""Sentences of the chapters that follow the result: one cell each, run on results that differ."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import gearpair as gp
+from tests.support.notebooks import glued
+
+
+@pytest.mark.parametrize(
+    ("teeth", "start"),
+    [
+        ((34, 34), "On either gear they part near the base circle."),
+        ((20, 80), "On the pinion they part near the base circle; on the gear that circle lies inside the root circle"),
+        ((80, 20), "On the gear they part near the base circle; on the pinion that circle lies inside the root circle"),
+        ((54, 60), "On either gear the base circle lies inside the root circle"),
+    ],
+)
+def test_where_the_roots_of_the_drawn_teeth_part(teeth, start):
+    assert glued("tooth_bending", "tooth-bendi-005-roots", pair=gp.SpurPair(*teeth))["roots"].startswith(start)
+
+
+@pytest.mark.parametrize(
+    ("bore", "foundation", "other", "words"),
+    [(0.3, True, "0.6", "stiffer by"), (0.6, True, "0.3", "softer by"), (0.6, False, "0.3", "Nothing changes")],
+)
+def test_another_bore_is_told_as_it_comes_out(bore, foundation, other, words):
+    pair = gp.SpurPair(bore_ratio=bore)
+    made = {"root": "trochoid", "foundation": foundation, "coupling": "summed"}
+    texts = glued(
+        "tooth_bending", "tooth-bore-b", pair=pair, bore_ratio=bore, mesh=gp.mesh_stiffness(pair, **made), **made
+    )
+    assert texts["other_bore"] == other and words in texts["bored"]
+
+
+@pytest.mark.parametrize(("weak", "word"), [(0.005, "weaker"), (0.02, "the same"), (0.1, "stronger")])
+def test_the_other_damping_is_called_what_it_is(weak, word):
+    texts = glued("impacts", "impacts-less", weak_damping=weak, damping_ratio=0.02)
+    assert texts["weaker"] == f"{word} damping"
+
+
+GENTLE, HARSH, OTHER = ("period 2", 0.2, 1.5, 2), ("period 1", -3.4, 3.2, 1), ("period 1", -2.6, 3.3, 1)
+CHAOS, CHAOS_AGAIN = ("chaos", -2.1, 3.0, None), ("chaos", -2.3, 3.1, None)
+
+
+@pytest.mark.parametrize(
+    ("ways", "said", "not_said"),
+    [
+        ((GENTLE, GENTLE, HARSH), "So claim I5 holds for the start", "slow ways end in period 2 and"),
+        ((HARSH, GENTLE, HARSH), "So claim I5 holds here", "does not show"),
+        ((HARSH, HARSH, HARSH), "here the past does not show", "claim I5"),
+        ((HARSH, HARSH, OTHER), "So claim I5 holds for the start", "All three"),  # two motions with one name
+        ((CHAOS, CHAOS, CHAOS_AGAIN), "here the past does not show", "claim I5"),
+    ],
+)
+def test_whether_the_past_shows_is_read_from_the_three_ways(ways, said, not_said):
+    names = ("sped up", "slowed down", "from (-2, 1.5)")
+    histories = {
+        name: SimpleNamespace(motion=motion, x_min=low, x_max=high, period=period)
+        for name, (motion, low, high, period) in zip(names, ways, strict=True)
+    }
+    told = glued("impacts", "impacts-ways", histories=histories)["ways"]
+    assert said in told and not_said not in told
+
+
+@pytest.mark.parametrize(
+    ("x", "state", "damping", "said"),
+    [
+        (
+            1.5,
+            ("periodic", 1),
+            0.02,
+            "The energy steps at the switches at which the teeth are pressed, and in the figure",
+        ),
+        (0.5, ("periodic", 1), 0.02, "and in the figure they are so at none"),
+        (1.5, ("escaped", None), 0.02, "The motion of the figure escapes."),
+        (0.5, ("aperiodic", None), 0.0, "Without damping no motion settles"),
+    ],
+)
+def test_where_the_energy_steps(x, state, damping, said):
+    osc = gp.Oscillator()
+    tau = np.linspace(0.0, osc.period, 101)
+    settled = SimpleNamespace(status=state[0], period=state[1])
+    results = {"wave": osc.stiffness, "osc": osc, "state": settled, "shown": 1, "damping_ratio": damping}
+    texts = glued("others", "others-28-told", motion=SimpleNamespace(tau=tau, x=np.full(101, x)), **results)
+    assert said in texts["steps"]
+
+
+@pytest.mark.parametrize(
+    ("force", "lost", "share", "left_out"),
+    [(0.1, 0, "too little for a torque meter", "none escapes"), (3.0, 2, ", enough for", "2 of the 5 speeds")],
+)
+def test_what_a_torque_meter_notices_and_which_speeds_are_left_out(force, lost, share, left_out):
+    works = np.ones((5, 3))
+    works[:lost] = np.nan
+    results = {"soft": 0.6, "stiff": 1.1, "slow": 0.1, "works": works, "n_values": 5}
+    texts = glued("others", "others-32", mean_force=force, **results)
+    assert share in texts["share"] and left_out in texts["left_out"]
+
+
+@pytest.mark.parametrize(("ratio", "said"), [(1.68, "at each of the three"), (1.0005, "it does not take the limit")])
+def test_whether_the_damper_takes_the_limit_is_seen(ratio, said):
+    wave = gp.StiffnessWave.rectangular(ratio)
+    soft, stiff = sorted(wave.levels)
+    osc = gp.Oscillator(stiffness=wave)
+    slow = osc.mean_force**2 * (soft + stiff) / 2 * (1 / soft - 1 / stiff) ** 2
+    assert said in glued("others", "others-43", osc=osc, slow=slow)["at_limit"]
+
+
+@pytest.mark.parametrize(
+    ("captured", "said", "not_said"),
+    [
+        ([100.0] * 30, "Half of the motions are captured after about 100, which needs no nine digits", "%"),
+        ([100.0] * 20, "Of the motions 66.7% were captured, half of them after about 100", "Half of the motions"),
+        ([900.0] * 30, "Half of the motions are captured after about 900. One in twenty", "nine digits"),
+        ([], "None of the motions was seen to be captured.", "nan"),
+    ],
+)
+def test_how_long_is_long_enough_is_told_of_what_was_captured(captured, said, not_said):
+    plane = SimpleNamespace(settling_time=np.empty(30))
+    results = {"captured": np.array(captured), "plane": plane, "needed": 446.0}
+    told = glued("damping_sweep", "ex-damping-how-long-told", **results)["captured"]
+    assert said in told and not_said not in told
+
+
+@pytest.mark.parametrize(
+    ("statuses", "upper", "said"),
+    [
+        (["periodic"] * 3 + ["other state"], 0.025, "but not each to one impact state"),
+        (["periodic"] * 3, 0.025, "Nothing happens on the way: from end to end and back the sweeps keep to period 2."),
+        (["periodic"] * 3, 0.01, "ranges narrower than 0.0005"),
+        (["periodic", "aperiodic", "periodic"], 0.025, "but for chaos"),
+    ],
+)
+def test_what_the_sweeps_met_on_the_way(statuses, upper, said):
+    states = SimpleNamespace(values=["double"] * 2 + ["single_drive" if "other state" in statuses else "double"])
+    swept = SimpleNamespace(status=SimpleNamespace(values=np.array(statuses[:3])), impact_state=states)
+    found = [SimpleNamespace(motion="period 2", lower=0.0005, upper=upper)]
+    results = {"falling": [swept], "rising": [swept], "found": found, "narrowest": 0.0005}
+    texts = glued("damping_sweep", "damping-carried-told", dampings=np.array([0.0005, 0.01, 0.025]), **results)
+    assert said in texts["carried"]
+
+
+@pytest.mark.parametrize(("entropy", "above"), [(0.6934, "none of them"), (0.72, '"other reading"')])
+def test_a_boundary_is_called_fractal_by_the_number_that_the_table_shows(entropy, above):
+    shares = SimpleNamespace(attractor_share=np.array([0.6, 0.4]), attractor_impact_state=["double", "single_drive"])
+    mixed = [SimpleNamespace(entropy=0.2, boundary_entropy=value) for value in (0.4, entropy, 0.5)]
+    planes = {"plane": shares, "swapped": shares, "weaker": shares, "less": "weaker damping", "entropies": mixed}
+    assert glued("impacts", "cell30", **planes)["above"] == above
