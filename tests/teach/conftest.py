@@ -24,6 +24,11 @@ from gearpair import teaching
 # what takes seconds is computed once for all graded examples that ask for the same
 REMEMBERED = ("identify", "run_up", "speed_chart")
 
+# what `short_course` keeps of an assignment, and the marks by tests and in all that are left
+SHORT = "stiffness"
+QUESTIONS = ("your-id", "setup", "text-03", "contact-ratio", "test-contact-ratio", "why-stiffest")
+MARKS, MOST = 3.0, 5.0
+
 ASSIGNMENTS = Path(__file__).parents[2] / "notebooks" / "assignments"
 sys.path.insert(0, str(ASSIGNMENTS))
 
@@ -53,6 +58,12 @@ class Course:
         )
         assert (done.returncode != 0) == fails, done.stdout
         return done.stdout
+
+    def shorten(self, name: str, cells: tuple[str, ...]) -> None:
+        """Leave the cells with these names in the source, and no other."""
+        source = self.source(name)
+        source.cells = [cell for cell in source.cells if cell.id in cells]
+        nbformat.write(source, self.root / "source" / name / f"{name}.ipynb")
 
     def release(self, name: str) -> None:
         self.nbgrader("generate_assignment", name)
@@ -146,22 +157,29 @@ for _name in REMEMBERED:
 
 @pytest.fixture(scope="module")
 def courses(tmp_path_factory):
-    """One course directory an assignment: made, released and kept on first use."""
+    """One course directory an assignment: made, released and kept on first use; with some cells of it alone, or all."""
     made: dict[str, Course] = {}
 
-    def course(key: str, name: str, change=lambda course: None) -> Course:
+    def course(key: str, name: str, cells: tuple[str, ...] = ()) -> Course:
         if key not in made:
             made[key] = Course(tmp_path_factory.mktemp("course") / key)
-            change(made[key])
+            if cells:
+                made[key].shorten(name, cells)
             made[key].release(name)
         return made[key]
 
     return course
 
 
+@pytest.fixture(scope="module")
+def short_course(courses):
+    """A course whose assignment is one question to compute and one to write about."""
+    return courses("short", SHORT, QUESTIONS)
+
+
 def pytest_collection_modifyitems(items):
     """What takes longest begins first, and beside it what mostly waits, on a third process for two cores."""
-    order = ("test_class.py", "test_assignments.py", "test_endless.py", "test_hostile.py", "test_adopting.py")
+    order = ("test_class.py", "test_assignments.py", "test_kernels.py", "test_endless.py", "test_hostile.py", "test_adopting.py")
     items.sort(key=lambda item: order.index(item.path.name))
 
 
