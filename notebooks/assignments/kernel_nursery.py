@@ -98,13 +98,28 @@ def serve():
 
     import gearpair.teaching  # noqa: F401
 
-    living = set()
+    living, loaded = set(), False
     for line in sys.stdin:
         living -= {pid for pid in living if os.waitpid(pid, os.WNOHANG)[0]}
         pid = os.fork()
         if pid == 0:
             become_a_kernel(*json.loads(line))
         living.add(pid)
+        if not loaded:  # while the first kernel is at work; a class that needs none of it loses a second
+            load_what_is_compiled()
+            loaded = True
+
+
+def load_what_is_compiled():
+    """Compiled code out of numba's cache, which takes each process a second again."""
+    from tqdm import tqdm
+
+    from gearpair.study.first_hour import CALLS
+
+    tqdm.monitor_interval, usual = 0, tqdm.monitor_interval  # its thread would not be there in a copy
+    for call in CALLS:
+        call()
+    tqdm.monitor_interval = usual
 
 
 def become_a_kernel(arguments, environment, folder):

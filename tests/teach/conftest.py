@@ -177,10 +177,18 @@ def short_course(courses):
     return courses("short", SHORT, QUESTIONS)
 
 
+@pytest.hookimpl(tryfirst=True)  # before the groups are read
 def pytest_collection_modifyitems(items):
-    """What takes longest begins first, and beside it what mostly waits, on a third process for two cores."""
-    order = ("test_class.py", "test_assignments.py", "test_kernels.py", "test_endless.py", "test_hostile.py", "test_adopting.py")
-    items.sort(key=lambda item: order.index(item.path.name))
+    """What shares a course stays on one process: a file, or an assignment. What takes longest begins first."""
+    order = ("class", "endless", "assignments", "hostile", "adopting", "kernels")
+    items.sort(key=lambda item: order.index(_of_file(item)))
+    for item in items:
+        name = item.callspec.params.get("name", "") if _of_file(item) == "assignments" else ""
+        item.add_marker(pytest.mark.xdist_group(f"{_of_file(item)} {name}"))
+
+
+def _of_file(item: pytest.Item) -> str:
+    return item.path.stem.removeprefix("test_")
 
 
 def pytest_terminal_summary(terminalreporter):
