@@ -1,8 +1,8 @@
 """Kernels that are there at once: forked from a process that has imported what every submission imports.
 
-A kernel of its own for every submission keeps students apart. That each imports numba and matplotlib anew does not, and
-it takes longer than most of what students compute. So one process, the nursery, imports them, and every kernel begins as
-a copy of it. The nursery runs no code of a student's, and knows neither tests nor gradebook.
+A kernel of its own for every submission keeps students apart. That each imports numba and matplotlib anew does not,
+and it takes longer than most of what students compute. So one process, the nursery, imports them, and every kernel
+begins as a copy of it. The nursery runs no code of a student's, and knows neither tests nor gradebook.
 """
 
 import atexit

@@ -5,7 +5,7 @@ from tests.teach.answers import FULL
 NAME = "stiffness"
 # they sleep, so that what runs beside this test has the processor
 LOOP = "import time\nwhile True:\n    time.sleep(0.01)"
-DEAF = "import time\nwhile True:\n    try:\n        while True:\n            time.sleep(0.01)\n    except BaseException:\n        pass"
+DEAF = "import time\nwhile True:\n    try:\n        time.sleep(10)\n    except BaseException:\n        pass"
 # Marks that are left, and what is written behind an answer: the first is stopped and goes on with the next cell, the
 # second is stopped with its kernel before any answer was asked for, the third ends its kernel after the first question.
 ENDLESS = {
