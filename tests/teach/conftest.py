@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -17,9 +18,11 @@ pytest.importorskip("nbgrader", reason="the teach extra is not installed: make t
 
 from nbgrader.api import Gradebook
 from nbgrader.utils import determine_grade
+from xdist.scheduler import LoadScopeScheduling
 
 import gearpair as gp
 from gearpair import teaching
+from tests.teach.answers import NAMES
 
 # what takes seconds is computed once for all graded examples that ask for the same
 REMEMBERED = ("identify", "run_up", "speed_chart")
@@ -177,18 +180,25 @@ def short_course(courses):
     return courses("short", SHORT, QUESTIONS)
 
 
-@pytest.hookimpl(tryfirst=True)  # before the groups are read
 def pytest_collection_modifyitems(items):
-    """What shares a course stays on one process: a file, or an assignment. What takes longest begins first."""
+    """What takes longest begins first, and beside it what mostly waits, on a third process for two cores."""
     order = ("class", "endless", "assignments", "hostile", "adopting", "kernels")
-    items.sort(key=lambda item: order.index(_of_file(item)))
-    for item in items:
-        name = item.callspec.params.get("name", "") if _of_file(item) == "assignments" else ""
-        item.add_marker(pytest.mark.xdist_group(f"{_of_file(item)} {name}"))
+    items.sort(key=lambda item: order.index(item.path.stem.removeprefix("test_")))
 
 
-def _of_file(item: pytest.Item) -> str:
-    return item.path.stem.removeprefix("test_")
+class ByCourse(LoadScopeScheduling):
+    """What shares a course stays on one process: a file, and of the assignments each for itself."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        file, _, test = nodeid.partition("::")
+        names = re.split(r"[][-]", test)
+        return file + next((name for name in NAMES if file.endswith("test_assignments.py") and name in names), "")
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """In place of whatever ``--dist`` says."""
+    return ByCourse(config, log)
 
 
 def pytest_terminal_summary(terminalreporter):
