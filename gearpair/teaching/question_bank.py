@@ -10,7 +10,6 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-import nbformat
 import numpy as np
 
 from gearpair.teaching import marks as marking
@@ -97,6 +96,8 @@ def questions(source: str | Path | io.StringIO, student_id: str) -> list[Questio
     >>> [(question.text, question.items[0].truth) for question in questions(path, "ada")]
     [('## 1 Teeth', 27)]
     """
+    import nbformat  # takes longer to import than all of gearpair, and a student's notebook needs none of it
+
     cells = nbformat.read(source, as_version=4).cells
     tests = {cell.id: cell.source for cell in cells if _settings(cell).get("grade") and cell.cell_type == "code"}
     made: list[marking.Marks] = []

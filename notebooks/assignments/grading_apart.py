@@ -11,11 +11,13 @@ import io
 import logging
 import re
 import traceback
+from pathlib import Path
 
+from kernel_nursery import NurseryKernelManager, nursery
 from nbclient.exceptions import CellTimeoutError, DeadKernelError
 from nbformat.v4 import new_output
 from nbgrader.api import Gradebook
-from nbgrader.preprocessors import Execute
+from nbgrader.preprocessors import Execute, NbGraderPreprocessor
 
 MIME = "application/vnd.gearpair.answers+json"
 ASK = """
@@ -36,6 +38,10 @@ MOST_STOPS = 2
 
 class GradeApart(Execute):
     """nbgrader's Execute, with the tests taken out of the student's kernel."""
+
+    def __init__(self, *args, **kwargs):
+        super().__init__(*args, **{"kernel_manager_class": NurseryKernelManager, **kwargs})
+        nursery()  # imports while this process reads on
 
     def preprocess(self, nb, resources, *args, **kwargs):
         course = resources["nbgrader"]
@@ -98,6 +104,29 @@ class GradeApart(Execute):
         cells = {test_name(cell): cell for cell in nb.cells if cell.cell_type == "code"}
         for name, outputs in run_tests(self.tests, self.answers, self.student_id):
             cells[name].outputs = outputs
+
+
+class RememberHandedIn(NbGraderPreprocessor):
+    """Writes into the graded notebook which one was handed in, so that the list of marks knows a later one."""
+
+    def preprocess(self, nb, resources):
+        from gearpair.teaching import gradebooks
+
+        course = resources["nbgrader"]
+        path = Path("submitted", course["student"], course["assignment"], f"{course['notebook']}.ipynb")
+        nb.metadata[gradebooks.HANDED_IN] = gradebooks.digest(path)
+        return nb, resources
+
+
+class SentencesFirst(NbGraderPreprocessor):
+    """On a page of feedback the sentences of a test stand above its code, where a student looks first."""
+
+    def preprocess_cell(self, cell, resources, index):
+        if cell.cell_type == "code" and cell.metadata.get("nbgrader", {}).get("grade"):
+            said = "".join(output.text for output in cell.outputs if output.output_type == "stream")
+            cell.source = "".join(f"# {line}\n" for line in said.splitlines()) + "\n" * bool(said) + cell.source
+            cell.outputs = [output for output in cell.outputs if output.output_type != "stream"]
+        return cell, resources
 
 
 def checked_folder(student_id):

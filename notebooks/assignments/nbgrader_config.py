@@ -10,8 +10,9 @@ import zmq
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
-from grading_apart import GradeApart, to_the_point  # noqa: E402
+from grading_apart import GradeApart, RememberHandedIn, SentencesFirst, to_the_point  # noqa: E402
 from nbgrader.converters.autograde import Autograde  # noqa: E402
+from nbgrader.converters.generate_feedback import GenerateFeedback  # noqa: E402
 from nbgrader.preprocessors import Execute  # noqa: E402
 from sqlalchemy.exc import SAWarning  # noqa: E402
 
@@ -31,8 +32,10 @@ c.KernelManager.transport_encryption = "auto" if zmq.has("curve") else "disabled
 
 # The student's cells run in a kernel of their own, the tests apart from it.
 c.Autograde.autograde_preprocessors = [
-    GradeApart if each is Execute else each for each in Autograde.autograde_preprocessors.default()
+    *(GradeApart if each is Execute else each for each in Autograde.autograde_preprocessors.default()),
+    RememberHandedIn,
 ]
+c.GenerateFeedback.preprocessors = [*GenerateFeedback.preprocessors.default(), SentencesFirst]
 c.GradeApart.timeout = 60  # seconds for one cell; after two cells that were stopped, the rest is not run
 c.GradeApart.iopub_timeout = 20  # seconds for what a cell printed to arrive; a machine may be busy
 c.GradeApart.shutdown_kernel = "immediate"  # nothing of a kernel's is wanted after its last cell

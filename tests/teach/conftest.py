@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -17,12 +18,19 @@ pytest.importorskip("nbgrader", reason="the teach extra is not installed: make t
 
 from nbgrader.api import Gradebook
 from nbgrader.utils import determine_grade
+from xdist.scheduler import LoadScopeScheduling
 
 import gearpair as gp
 from gearpair import teaching
+from tests.teach.answers import NAMES
 
 # what takes seconds is computed once for all graded examples that ask for the same
 REMEMBERED = ("identify", "run_up", "speed_chart")
+
+# what `short_course` keeps of an assignment, and the marks by tests and in all that are left
+SHORT = "stiffness"
+QUESTIONS = ("your-id", "setup", "text-03", "contact-ratio", "test-contact-ratio", "why-stiffest")
+MARKS, MOST = 3.0, 5.0
 
 ASSIGNMENTS = Path(__file__).parents[2] / "notebooks" / "assignments"
 sys.path.insert(0, str(ASSIGNMENTS))
@@ -53,6 +61,12 @@ class Course:
         )
         assert (done.returncode != 0) == fails, done.stdout
         return done.stdout
+
+    def shorten(self, name: str, cells: tuple[str, ...]) -> None:
+        """Leave the cells with these names in the source, and no other."""
+        source = self.source(name)
+        source.cells = [cell for cell in source.cells if cell.id in cells]
+        nbformat.write(source, self.root / "source" / name / f"{name}.ipynb")
 
     def release(self, name: str) -> None:
         self.nbgrader("generate_assignment", name)
@@ -146,23 +160,45 @@ for _name in REMEMBERED:
 
 @pytest.fixture(scope="module")
 def courses(tmp_path_factory):
-    """One course directory an assignment: made, released and kept on first use."""
+    """One course directory an assignment: made, released and kept on first use; with some cells of it alone, or all."""
     made: dict[str, Course] = {}
 
-    def course(key: str, name: str, change=lambda course: None) -> Course:
+    def course(key: str, name: str, cells: tuple[str, ...] = ()) -> Course:
         if key not in made:
             made[key] = Course(tmp_path_factory.mktemp("course") / key)
-            change(made[key])
+            if cells:
+                made[key].shorten(name, cells)
             made[key].release(name)
         return made[key]
 
     return course
 
 
+@pytest.fixture(scope="module")
+def short_course(courses):
+    """A course whose assignment is one question to compute and one to write about."""
+    return courses("short", SHORT, QUESTIONS)
+
+
 def pytest_collection_modifyitems(items):
     """What takes longest begins first, and beside it what mostly waits, on a third process for two cores."""
-    order = ("test_class.py", "test_assignments.py", "test_endless.py", "test_hostile.py", "test_adopting.py")
-    items.sort(key=lambda item: order.index(item.path.name))
+    order = ("class", "endless", "assignments", "hostile", "adopting", "kernels")
+    items.sort(key=lambda item: order.index(item.path.stem.removeprefix("test_")))
+
+
+class ByCourse(LoadScopeScheduling):
+    """What shares a course stays on one process: a file, and of the assignments each for itself."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        file, _, test = nodeid.partition("::")
+        names = re.split(r"[][-]", test)
+        return file + next((name for name in NAMES if file.endswith("test_assignments.py") and name in names), "")
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """In place of whatever ``--dist`` says."""
+    return ByCourse(config, log)
 
 
 def pytest_terminal_summary(terminalreporter):

@@ -16,10 +16,9 @@ from gearpair.teaching.collecting import collect, matched
 from tests.support import ROOT
 from tests.teach.answers import NAMES
 from tests.teach.conftest import ASSIGNMENTS
+from tests.teach.conftest import SHORT as NAME
 from tools.course_packs import student_pack, teacher_pack
 
-NAME = "stiffness"
-QUESTIONS = ("your-id", "setup", "text-03", "contact-ratio", "test-contact-ratio", "why-stiffest")
 CLASS = """First name,Surname,ID number,Email address
 Ada,Lovelace,ada,ada@example.org
 Grace,Hopper,grace,
@@ -37,14 +36,9 @@ ARCHIVE = {
 }
 
 
-@pytest.fixture(scope="module")
-def course(courses):
-    def shortened(course):
-        source = course.source(NAME)
-        source.cells = [cell for cell in source.cells if cell.id in QUESTIONS]
-        nbformat.write(source, course.root / "source" / NAME / f"{NAME}.ipynb")
-
-    return courses("adopted", NAME, shortened)
+@pytest.fixture
+def course(short_course):
+    return short_course
 
 
 @pytest.fixture
@@ -78,6 +72,17 @@ def test_an_archive_is_collected_graded_and_listed(course, class_list, here, tmp
         row = rows[student]
         assert (row["stiffness"], row["stiffness_max"], row["stiffness_state"]) == ("3", "5", "written answers wait")
     assert (rows["emmy"]["stiffness"], rows["emmy"]["stiffness_state"]) == ("", "not handed in")
+    # the sentences of a test stand before its code
+    course.nbgrader("generate_feedback", NAME)
+    page = (course.root / "feedback" / "ada" / NAME / f"{NAME}.html").read_text(encoding="utf-8")
+    assert 0 < page.index("# path_mm: right (2 of 2)") < page.index("expect")
+    # a later notebook, marked or not, has not got the marks of the one before
+    again = course.root / "submitted" / "ada" / NAME / f"{NAME}.ipynb"
+    again.write_text(nbformat.writes(course.released(NAME)), encoding="utf-8")
+    assert main(["course", "marks", str(class_list), "-o", str(output), *here]) == 0
+    assert "1 handed in anew, not graded again" in capsys.readouterr().out
+    rows = {row["id"]: row for row in csv.DictReader(output.open(encoding="utf-8"))}
+    assert (rows["ada"]["stiffness"], rows["ada"]["stiffness_state"]) == ("3", "handed in anew, not graded again")
 
 
 def test_what_is_handed_in_anew_is_told_and_what_is_there_stays(tmp_path):
