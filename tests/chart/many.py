@@ -2,9 +2,9 @@
 
     python -m tests.chart.many [drives] [seed]
 
-Needs Node.js, and some five seconds a drive. Where chaos comes on the way, rounding decides on which motion a run lands,
-and over which stretch of it a force was measured. So a cycle of the page that is not the library's there is followed by
-the library from its own start; those that the library does not confirm are printed.
+Needs Node.js, and some three seconds a drive. Where chaos comes on the way, rounding decides on which motion a run
+lands, and over which stretch of it a force was measured. So a cycle of the page that is not the library's there is
+followed by the library from its own start; those that the library does not confirm are printed.
 """
 
 import sys
