@@ -52,8 +52,13 @@ def stable_notebook(source: Path, executed: nbformat.NotebookNode) -> nbformat.N
     for cell, run in zip(notebook.cells, ran, strict=True):
         if cell.cell_type == "code":
             cell.execution_count = run.execution_count
-            cell.outputs = _joined(each for output in run.outputs if (each := _stable_output(output)) is not None)
+            cell.outputs = stable_outputs(run)
     return notebook
+
+
+def stable_outputs(cell: nbformat.NotebookNode) -> list[nbformat.NotebookNode]:
+    """The outputs of a cell that ran, less what is not stable."""
+    return _joined(each for output in cell.outputs if (each := _stable_output(output)) is not None)
 
 
 def _joined(outputs: Iterable[nbformat.NotebookNode]) -> list[nbformat.NotebookNode]:

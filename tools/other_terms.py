@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -18,7 +18,7 @@ from gearpair.study.chapters import Chapter
 from gearpair.study.cli import main
 from gearpair.study.errors import StudyError
 from gearpair.study.execution import execute
-from tools.accept import stable_notebook
+from tools.accept import stable_outputs
 
 NUDGE = 1.0 + 1e-12
 NUDGED = "parameters changed by 1e-12"
@@ -66,21 +66,25 @@ def changed_cells(chapter: Chapter, condition: str) -> list[int]:
     values = nudged(chapter) if condition == NUDGED else {}
     with tempfile.TemporaryDirectory() as scratch, environment(CONDITIONS[condition]):
         executed = execute(chapter, Path(scratch) / chapter.path.name, values, progress=False)
-    executed.cells = [cell for cell in executed.cells if "injected-parameters" not in cell.metadata.get("tags", [])]
-    stored = nbformat.read(chapter.path, as_version=4)
-    now = stable_notebook(chapter.path, executed)
-    pairs = [(a, b) for a, b in zip(stored.cells, now.cells, strict=True) if a.cell_type == "code"]
+    stored, now = (code_cells(each) for each in (nbformat.read(chapter.path, as_version=4), executed))
     return [
         number
-        for number, (a, b) in enumerate(pairs, start=1)
-        if NOT_COMPARED not in a.metadata.get("tags", []) and compared(a) != compared(b)
+        for number, (a, b) in enumerate(zip(stored, now, strict=True), start=1)
+        if NOT_COMPARED not in a.metadata.get("tags", []) and compared(a.outputs) != compared(stable_outputs(b))
     ]
 
 
-def compared(cell: nbformat.NotebookNode) -> list[tuple[str, Any]]:
-    """What a cell put out, less the numbers that count executions; what it printed in one piece, however it arrived."""
-    printed = "".join(output.text for output in cell.outputs if output.output_type == "stream")
-    shown = [(output.output_type, output.get("data")) for output in cell.outputs if output.output_type != "stream"]
+def code_cells(notebook: nbformat.NotebookNode) -> list[nbformat.NotebookNode]:
+    """The code of a chapter's own; a run with other parameters has a cell with those, and leaves texts out."""
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    return [cell for cell in code if "injected-parameters" not in cell.metadata.get("tags", [])]
+
+
+def compared(outputs: Iterable[nbformat.NotebookNode]) -> list[tuple[str, Any]]:
+    """Outputs less the numbers that count executions; what was printed in one piece, however it arrived."""
+    outputs = list(outputs)
+    printed = "".join(output.text for output in outputs if output.output_type == "stream")
+    shown = [(output.output_type, output.get("data")) for output in outputs if output.output_type != "stream"]
     return [("stream", printed), *shown]
 
 

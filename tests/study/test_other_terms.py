@@ -5,6 +5,7 @@ import os
 import nbformat
 import pytest
 
+from gearpair.parameters import BASELINE
 from gearpair.study.book import Book
 from gearpair.study.cli import main
 from tests.support.notebooks import MEAN, write_notebook
@@ -17,10 +18,14 @@ THREADS = "import os\nprint(os.environ.get('NUMBA_NUM_THREADS'))"
 
 @pytest.fixture
 def stored(small_book):
-    """Stores the outputs of a chapter made of the given cells."""
+    """Stores the outputs of a chapter made of the given cells, with a sentence about its own parameters."""
 
     def store(*cells):
-        write_notebook(small_book / "notebooks" / "small.ipynb", *cells)
+        path = write_notebook(small_book / "notebooks" / "small.ipynb", *cells)
+        notebook = nbformat.read(path, as_version=4)
+        own = nbformat.v4.new_markdown_cell("It is 0.7.", metadata={"tags": [BASELINE]})
+        notebook.cells.insert(2, own)
+        nbformat.write(notebook, path)
         accept_outputs(Book(small_book), progress=False)
         return small_book
 
@@ -52,9 +57,8 @@ def test_the_environment_is_put_back(monkeypatch):
 
 def test_what_is_printed_in_pieces_is_the_same_as_in_one():
     one, two = (
-        nbformat.v4.new_code_cell(outputs=[nbformat.v4.new_output("stream", text=text) for text in texts])
-        for texts in (["a\nb\n"], ["a\n", "b\n"])
+        [nbformat.v4.new_output("stream", text=text) for text in texts] for texts in (["a\nb\n"], ["a\n", "b\n"])
     )
     assert compared(one) == compared(two)
-    two.outputs[1].text = "c\n"
+    two[1].text = "c\n"
     assert compared(one) != compared(two)
