@@ -148,6 +148,12 @@ CALLS = {
         },
         "linear_response": lambda: {"osc": OSC},
         "load_change": lambda: {"drive": made("moving"), "torque_nm": [(0.0, 50.0), (0.01, 100.0)], "seconds": 0.01},
+        "load_change_moments": lambda: {
+            "drive": made("moving"),
+            "torque_nm": [(0.0, 50.0), (0.01, 100.0)],
+            "seconds": 0.01,
+            "n_moments": 2,
+        },
         "load_map": lambda: {
             "drive": made("drive"),
             "torques_nm": [50.0, 100.0],

@@ -8,7 +8,7 @@ from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import LinearResponse, linear_response
 from gearpair.design.load_maps import duty_cycle, load_map
 from gearpair.design.loads import measure_motion
-from gearpair.design.passages import load_change, run_up, schedule
+from gearpair.design.passages import load_change, load_change_moments, run_up, schedule
 from gearpair.design.players import Player
 from gearpair.design.populations import helps_most, population
 from gearpair.design.sensitivities import sensitivity
@@ -36,6 +36,7 @@ __all__ = [
     "iso_dynamic_factor",
     "linear_response",
     "load_change",
+    "load_change_moments",
     "load_map",
     "measure_motion",
     "population",

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair.design import load_change, run_up, schedule
+from gearpair.design import load_change, load_change_moments, run_up, schedule
 from gearpair.design.passages import inertia_force_n, mesh_cycles
 
 PAIR = gp.SpurPair(pinion_teeth=28, gear_teeth=57, module_mm=3.0, face_width_mm=25.0)
@@ -84,6 +84,27 @@ def test_a_reversal_crosses_the_backlash() -> None:
     assert pressed[-5:].mean() == pytest.approx(DRIVE.mean_force_n, rel=0.02)
 
 
+def test_a_change_of_load_at_many_moments() -> None:
+    """Each row is a change that begins so late; and where there is a choice of motions, the moment makes it."""
+    drive = DRIVE.at_speed(3000.0)
+    course = [(0.0, -20.0), (0.005, 120.0)]
+    many = load_change_moments(drive, course, 0.1, n_moments=7)
+    period = 2.0 * np.pi / drive.mesh_frequency_rad_s
+    assert many.begins.values % 1.0 == pytest.approx((np.arange(7) + 0.5) / 7)
+    assert many.begins.values // 1.0 == pytest.approx(np.arange(1, 8))
+    assert float(load_change_moments(drive, course, 0.1, n_moments=13).begins[12]) == pytest.approx(1.0 + 12.5 / 13)
+    for k in (0, 6):
+        late = float(many.begins[k]) * period
+        one = load_change(drive, [(0.0, -20.0), (late, -20.0), (late + 0.005, 120.0)], late + 0.1)
+        assert float(many.dynamic_factor[k]) == float(one.dynamic_factor.max())
+        assert float(many.factor_after[k]) == float(one.dynamic_factor[-20:].max())
+        assert float(many.impact_velocity[k]) == float(one.impact_velocity.max())
+        assert bool(many.coast_struck[k]) == bool(one.coast_impacts.any())
+    steady = float(load_change(drive, 120.0, 0.1).dynamic_factor[-1])
+    assert many.factor_after.values == pytest.approx(steady, rel=0.01)  # one motion at this speed
+    assert not load_change_moments(drive, [(0.0, 120.0)], 0.1, n_moments=1).coast_struck.any()
+
+
 def test_relieved_tips_follow_the_torque() -> None:
     """At each constant torque the schedule of one drive is that of the drive made for the torque, sign included."""
     relief = gp.teeth.TipRelief(20.0, 20.0, 0.33)
@@ -113,6 +134,9 @@ def test_bad_input() -> None:
         (lambda: schedule(DRIVE, 1e6, speed_rpm=1000.0), "seconds must leave at most 1000000 mesh periods"),
         (lambda: load_change(slow, [(0.0, 1.0), (0.5, float("nan"))], 1.0), "torque_nm"),
         (lambda: load_change(DRIVE, [(0.0, 1.0)], 1.0), "this drive has no speed"),
+        (lambda: load_change_moments(slow, [(0.1, 1.0)], 1.0), "torque_nm must begin at 0 s"),
+        (lambda: load_change_moments(slow, [(0.0, 1.0)], 0.0), "seconds must be a finite number above 0"),
+        (lambda: load_change_moments(slow, [(0.0, 1.0)], 1.0, n_moments=0), "n_moments must be a whole number"),
     ):
         with pytest.raises(ValueError, match=sentence):
             call()
