@@ -10,7 +10,7 @@ from gearpair._checks import check_count, checked
 from gearpair.article import published
 from gearpair.article.published import Boundary, Range
 from gearpair.ensembles.planes import attractor_motions
-from gearpair.ensembles.ranges import MotionRange
+from gearpair.ensembles.ranges import MotionRange, joined_ranges
 from gearpair.motion.names import Motion
 from gearpair.quantities import symbol
 from gearpair.table import Table
@@ -28,7 +28,7 @@ def compare_ranges(stated: Iterable[Range], found: Sequence[MotionRange], digits
     stated : iterable of Range
         Of `gearpair.published.ranges`.
     found : sequence of MotionRange
-        Of `found_ranges`.
+        Of `found_ranges`, `stable_ranges` or both: ranges of one motion that overlap are told once.
     digits : int
         Decimals shown.
 
@@ -46,11 +46,12 @@ def compare_ranges(stated: Iterable[Range], found: Sequence[MotionRange], digits
     ['–', '73%', '100%']
     """
     check_count("digits", digits, at_least=0)
+    told_once = joined_ranges(found)
     rows = []
     for each in stated:
         inside = [
             MotionRange(max(run.lower, each.lower), min(run.upper, each.upper), run.motion)
-            for run in found
+            for run in told_once
             if run.lower < each.upper and run.upper > each.lower
         ]
         texts = [f"{run.motion} ({run.lower:.{digits}f}–{run.upper:.{digits}f})" for run in inside]

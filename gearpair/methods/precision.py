@@ -260,10 +260,13 @@ def disorder_told(exact: xr.Dataset, drawn: xr.Dataset, control: xr.Dataset) -> 
     """
     made_up, shared = (numerical_chaos(exact, each) for each in (drawn, control))
     looks, unsettled = coarse_share(drawn.period.values == 0), coarse_share(exact.status.values != "periodic")
-    told = f"Of the frequencies {looks} look disordered, and {unsettled} did not settle while they were watched."
+    told = f"{looks[0].upper()}{looks[1:]} of the frequencies look disordered, "
+    told += f"and at {unsettled} the motion did not settle while it was watched."
     if not made_up.any():
         return f"{told} No motion that is periodic in the end is drawn as disorder."
-    told += f" At {coarse_share(made_up)} of them the diagram is disordered and the motion periodic in the end"
+    told += (
+        f" At {coarse_share(made_up)} of the frequencies the diagram is disordered and the motion periodic in the end"
+    )
     own = made_up & ~shared
     if not own.any():
         return f"{told}, and the exact flow, drawn by the same rules, is as disordered there: none of it is numerical."

@@ -30,7 +30,7 @@ def test_the_head_follows_the_best_readings(best, head, durations):
 def test_the_verdict_names_what_is_decided_and_what_is_not():
     told = case.which_reading([SWAPPED, TRUE_MEAN])
     assert "Of order, phase, forcing, mean and shape the printed choice fits best" in told
-    assert told.endswith("of the damping this run does not decide.")
+    assert told.endswith("on the damping this run does not decide.")
     assert "of phase another than the printed choice fits best" in case.which_reading([COSINE])
     for best in ([PRINTED], [PRINTED, SWAPPED], [ANOTHER, COSINE]):
         assert case.which_reading(best).startswith("This run does not tell")

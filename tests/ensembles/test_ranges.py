@@ -193,6 +193,9 @@ def test_agreement_is_the_share_of_the_published_range():
     assert [row[-1] for row in rows] == ["75%", "–", "50%"]
     assert rows[2][3] == "period 2 (4.5–6.5), period 4 (6.0–8.0)"
     assert rows[1][3] == "none this wide"
+    twice = [*FOUND, gp.ensembles.MotionRange(4.0, 6.0, periodic(2))]  # by a sweep and by continuation
+    row = gp.article.compare_ranges(STATED, twice, digits=1).rows[2]
+    assert row[3:] == ("period 2 (4.0–6.5), period 4 (6.0–8.0)", "62%")
 
 
 def test_boundaries_are_matched_by_the_same_change():

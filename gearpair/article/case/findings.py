@@ -85,7 +85,7 @@ def which_reading(best: Sequence[Hypothesis]) -> str:
     Examples
     --------
     >>> print(which_reading([SWAPPED, Hypothesis(stiff_for="2 - eps", damping="zeta")]).split("; ")[-1])
-    of the damping this run does not decide.
+    on the damping this run does not decide.
     >>> which_reading([SWAPPED, PRINTED])[:60]
     'This run does not tell: of the 2 readings that do best, 1 ha'
     """
@@ -101,7 +101,7 @@ def which_reading(best: Sequence[Hypothesis]) -> str:
     other = [CHOICES[name] for name in agreed if getattr(best[0], name) != getattr(PRINTED, name)]
     parts = [f"of {listed(kept)} the printed choice fits best"] if kept else []
     parts += [f"of {listed(other)} another than the printed choice fits best"] if other else []
-    parts += [f"of {_with_article(open_)} this run does not decide"] if open_ else []
+    parts += [f"on {_with_article(open_)} this run does not decide"] if open_ else []
     told = "; ".join(parts)
     return (
         "The published tables fit a wave that is stiff for 2 − ε of the mesh period, so the two durations of item K2 "
