@@ -81,6 +81,15 @@ def check_array(
     return found
 
 
+def check_truths(name: str, value: Any) -> NDArray[np.bool_]:
+    """The truth values, of any shape, one at least; or a ValueError."""
+    truths = np.array(value, dtype=object) if isinstance(value, list) else np.asarray(value)
+    truths = truths.astype(bool) if all(isinstance(each, (bool, np.bool_)) for each in truths.flat) else truths
+    if truths.size == 0 or truths.dtype != bool:
+        raise ValueError(f"{name} must hold truth values, one at least, got {shown(value)}")
+    return truths
+
+
 def plain(values: NDArray[np.float64]) -> Any:
     """An array as it is, but for one of no dimension, which becomes a float: what comes of a number is a number."""
     return float(values) if np.ndim(values) == 0 else values

@@ -131,6 +131,7 @@ CALLS = {
         "duty_cycle": lambda: {"found": made("loads"), "points": [(60.0, 3000.0, 1.0)]},
         "helps_most": lambda: {"found": made("boxes")},
         "find_jumps": lambda: {"up": made("up"), "down": made("up")},
+        "how_many_moments": lambda: {"where": [True, False]},
         "identify": lambda: {
             "drive": made("drive").at_phase(0.3),
             "jump_up_rpm": 8598.0,

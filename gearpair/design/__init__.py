@@ -8,7 +8,7 @@ from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import LinearResponse, linear_response
 from gearpair.design.load_maps import duty_cycle, load_map
 from gearpair.design.loads import measure_motion
-from gearpair.design.passages import load_change, load_change_moments, run_up, schedule
+from gearpair.design.passages import how_many_moments, load_change, load_change_moments, run_up, schedule
 from gearpair.design.players import Player
 from gearpair.design.populations import helps_most, population
 from gearpair.design.sensitivities import sensitivity
@@ -30,6 +30,7 @@ __all__ = [
     "duty_cycle",
     "find_jumps",
     "helps_most",
+    "how_many_moments",
     "identify",
     "idle_oscillator",
     "idle_rattle",

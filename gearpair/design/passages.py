@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_array, check_count, check_number, checked, shown
+from gearpair._checks import check_array, check_count, check_number, check_truths, checked, shown
 from gearpair.design.loads import sampled_force_n
 from gearpair.drive import GearDrive
 from gearpair.motion.passages import passage
@@ -143,7 +143,7 @@ def load_change_moments(
     -------
     xarray.Dataset
         Over ``begins``, the moments in mesh periods: ``dynamic_factor``, the largest on the way; ``factor_after``, that
-        of the last 20 mesh periods; ``impact_velocity`` (mm/s), the largest; ``coast_struck``, whether a coast flank is.
+        of the last 20 mesh periods; ``impact_velocity`` (mm/s), the largest; ``coast_struck``, whether that flank is.
 
     Notes
     -----
@@ -177,6 +177,24 @@ def load_change_moments(
     columns = dict(zip(names, map(np.array, zip(*rows, strict=True)), strict=True))
     variables = {name: ("begins", column, attributes(name)) for name, column in columns.items()}
     return xr.Dataset(variables, {"begins": ("begins", begins, attributes("begins"))}, {"drive": repr(drive)})
+
+
+@checked
+def how_many_moments(where: ArrayLike) -> str:
+    """At how many of the moments something is so, as coarsely as some dozens of them can tell.
+
+    ``"none"``, ``"few"`` (under a quarter), ``"some"``, ``"most"`` (over three quarters) or ``"all"``.
+
+    Examples
+    --------
+    >>> [how_many_moments(where) for where in ([True], [True, False], [False])]
+    ['all', 'some', 'none']
+    """
+    truths = check_truths("where", where)
+    if truths.all() or not truths.any():
+        return "all" if truths.all() else "none"
+    share = float(truths.mean())
+    return "few" if share < 0.25 else "most" if share > 0.75 else "some"
 
 
 @checked

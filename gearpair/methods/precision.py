@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count, checked, shown
+from gearpair._checks import check_count, check_truths, checked
 from gearpair._equality import equal_by_value
 from gearpair.ensembles.datasets import oscillators_along
 from gearpair.methods.runge_kutta import DiagramOptions, diagram_rules, runge_kutta_section, section_diagram
@@ -309,11 +309,7 @@ def coarse_share(where: ArrayLike) -> str:
     >>> coarse_share([True, False, False]), coarse_share([True] * 29 + [False]), coarse_share([False])
     ('35%', 'over 90%', 'under 10%')
     """
-    truths = np.array(where, dtype=object) if isinstance(where, list) else np.asarray(where)
-    truths = truths.astype(bool) if all(isinstance(each, (bool, np.bool_)) for each in truths.flat) else truths
-    if truths.size == 0 or truths.dtype != bool:
-        raise ValueError(f"where must hold truth values, one at least, got {shown(where)}")
-    share = float(np.mean(truths))
+    share = float(np.mean(check_truths("where", where)))
     if share == 1.0:
         return "all"
     return "under 10%" if share < 0.1 else "over 90%" if share > 0.9 else f"{round(20.0 * share) / 20.0:.0%}"

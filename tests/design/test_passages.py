@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair.design import load_change, load_change_moments, run_up, schedule
+from gearpair.design import how_many_moments, load_change, load_change_moments, run_up, schedule
 from gearpair.design.passages import inertia_force_n, mesh_cycles
 
 PAIR = gp.SpurPair(pinion_teeth=28, gear_teeth=57, module_mm=3.0, face_width_mm=25.0)
@@ -105,6 +105,13 @@ def test_a_change_of_load_at_many_moments() -> None:
     assert not load_change_moments(drive, [(0.0, 120.0)], 0.1, n_moments=1).coast_struck.any()
 
 
+@pytest.mark.parametrize(
+    ("n", "told"), [(0, "none"), (1, "few"), (5, "few"), (6, "some"), (18, "some"), (19, "most"), (24, "all")]
+)
+def test_how_many_moments(n: int, told: str) -> None:
+    assert how_many_moments(np.arange(24) < n) == told
+
+
 def test_relieved_tips_follow_the_torque() -> None:
     """At each constant torque the schedule of one drive is that of the drive made for the torque, sign included."""
     relief = gp.teeth.TipRelief(20.0, 20.0, 0.33)
@@ -134,6 +141,8 @@ def test_bad_input() -> None:
         (lambda: schedule(DRIVE, 1e6, speed_rpm=1000.0), "seconds must leave at most 1000000 mesh periods"),
         (lambda: load_change(slow, [(0.0, 1.0), (0.5, float("nan"))], 1.0), "torque_nm"),
         (lambda: load_change(DRIVE, [(0.0, 1.0)], 1.0), "this drive has no speed"),
+        (lambda: how_many_moments([]), "where must hold truth values, one at least"),
+        (lambda: how_many_moments([0.5]), "where must hold truth values, one at least"),
         (lambda: load_change_moments(slow, [(0.1, 1.0)], 1.0), "torque_nm must begin at 0 s"),
         (lambda: load_change_moments(slow, [(0.0, 1.0)], 0.0), "seconds must be a finite number above 0"),
         (lambda: load_change_moments(slow, [(0.0, 1.0)], 1.0, n_moments=0), "n_moments must be a whole number"),
