@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import gearpair as gp
 from tests.support.notebooks import glued
@@ -61,7 +62,8 @@ def test_whether_the_past_shows_is_read_from_the_three_ways(ways, said, not_said
         name: SimpleNamespace(motion=motion, x_min=low, x_max=high, period=period)
         for name, (motion, low, high, period) in zip(names, ways, strict=True)
     }
-    told = glued("impacts", "impacts-ways", histories=histories)["ways"]
+    ended = dict.fromkeys(names, ("an escape", 0.0, 0.0))
+    told = glued("impacts", "impacts-ways", histories=histories, ended=ended)["ways"]
     assert said in told and not_said not in told
 
 
@@ -143,9 +145,11 @@ def test_what_the_sweeps_met_on_the_way(statuses, upper, said):
     assert said in texts["carried"]
 
 
-@pytest.mark.parametrize(("entropy", "above"), [(0.6934, "none of them"), (0.72, '"other reading"')])
+@pytest.mark.parametrize(("entropy", "above"), [(0.6934, "none of them"), (0.76, '"other reading"')])
 def test_a_boundary_is_called_fractal_by_the_number_that_the_table_shows(entropy, above):
-    shares = SimpleNamespace(attractor_share=np.array([0.6, 0.4]), attractor_impact_state=["double", "single_drive"])
+    shares = SimpleNamespace(
+        attractor_share=xr.DataArray([0.6, 0.4]), attractor_impact_state=["double", "single_drive"]
+    )
     mixed = [SimpleNamespace(entropy=0.2, boundary_entropy=value) for value in (0.4, entropy, 0.5)]
     planes = {"plane": shares, "swapped": shares, "weaker": shares, "less": "weaker damping", "entropies": mixed}
     assert glued("impacts", "cell30", **planes)["above"] == above
