@@ -11,7 +11,7 @@ gearpair.define(
     const FAST = 0.7; // the baseline's
     const NUDGE = 1.5; // where the slider of nudges stands at first: of X', and it goes to MOST either way
     const MOST = 2;
-    const TRANSIENT = 3; // mesh periods that are shown of what follows a nudge
+    const TRANSIENT = 2; // mesh periods that are shown of what follows a nudge
     const SHOWN = 8; // mesh periods, about, of a settled motion
     const SAMPLES = 2048;
     const SAME_SPEED = 1; // natural frequencies a second: how fast time runs in the picture
@@ -39,6 +39,7 @@ gearpair.define(
       }; // prettier-ignore
     }
 
+    const withForce = (motion) => `${WORDS[motion.manner]}, with ${number(motion.loadFactor)} times the mean force`;
     const apart = ({ low }) => low < 1;
     const hitsTheOther = ({ low }) => low < -1;
     const address = ({ state }) => `explorer.html#mesh_frequency=${state.mesh_frequency}&x=${state.x}&v=${state.v}`;
@@ -65,13 +66,15 @@ gearpair.define(
         verdict: (story, motion) =>
           apart(motion)
             ? `The teeth part, and meet again with a blow: ${number(motion.loadFactor)} times the mean force.`
-            : "At this speed the teeth stay together. Go on.",
-        done: (story, motion) => apart(motion),
+            : "At this speed the teeth stay together.",
+        done: (story, motion) => (story.parted ||= apart(motion)),
       },
       {
         title: "Predict",
         text: `Faster still, at ${FAST} of the resonance: will the tooth hit the other side?`,
         act: (story) => {
+          story.answer = null;
+          story.show(found(FASTER));
           for (const answer of ["Yes", "No"]) {
             story.button(answer, () => {
               story.answer = answer;
@@ -80,16 +83,17 @@ gearpair.define(
           }
         },
         verdict: (story, motion) => {
+          if (!story.answer) return "";
           const right = hitsTheOther(motion) === (story.answer === "Yes");
           const turns = `It turns back after ${(50 * (1 - motion.low)).toFixed(0)}% of the play`; // from X = 1 to −1
           const what = hitsTheOther(motion) ? "It does hit the other side" : turns;
-          return `${right ? "Right." : "Not so."} ${what}. So ${WORDS[motion.manner]}.`;
+          return `${right ? "Right." : "Not so."} ${what}. So ${withForce(motion)}.`;
         },
-        done: () => true,
+        done: (story) => story.answer !== null,
       },
       {
         title: "Nudge it",
-        text: "The same speed, the same load. Push the upper tooth: here, or drag it sideways and let go.",
+        text: "The same speed, the same load. Push the upper tooth out of its rattle: here, or drag it sideways and let go.",
         act: (story) => {
           story.show(story.first());
           const entry = { label: "Push", min: -MOST, max: MOST, step: 0.1, value: NUDGE };
@@ -98,12 +102,11 @@ gearpair.define(
           story.button("Nudge", () => story.push(story.nudge.valueAsNumber));
         },
         verdict: (story, motion) => {
-          const what = `${WORDS[motion.manner]}, with ${number(motion.loadFactor)} times the mean force`;
-          if (!story.pushed) return `Before the nudge ${what}.`;
-          if (motion.manner === story.first().manner) return "It comes back to what it did. Push harder, or the other way.";
-          return `Only a nudge, and now ${what}. It stays so.`;
+          if (!story.pushed) return "";
+          if (motion.manner === story.first().manner) return "It comes back to what it did. Try another push.";
+          return `One push, and now ${withForce(motion)}. By itself it does not go back.`;
         },
-        done: (story, motion) => story.pushed && motion.manner !== story.first().manner,
+        done: (story) => Boolean(story.other),
       },
       {
         title: "Listen to both",
@@ -127,7 +130,7 @@ gearpair.define(
           story.show(both[1]);
         },
         verdict: (story) =>
-          `${listen.told(story.listener, story.listener.heard)} ${story.louder} See them in the explorer: ` +
+          `${story.louder} See them in the explorer: ` +
           `${story.both().map((motion) => `<a href="${address(motion)}">the ${motion.manner}</a>`).join(", ")}.`,
         done: () => false,
       },
@@ -245,7 +248,7 @@ gearpair.define(
       tell() {
         const { verdict, done } = STEPS[this.step];
         const text = verdict(this, this.motion).trim();
-        this.find(".gp-verdict").innerHTML = text[0].toUpperCase() + text.slice(1);
+        this.find(".gp-verdict").innerHTML = text.charAt(0).toUpperCase() + text.slice(1);
         this.find("[data-way='1']").disabled = !done(this, this.motion);
       }
 
