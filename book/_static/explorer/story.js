@@ -47,7 +47,7 @@ gearpair.define(
     const STEPS = [
       {
         title: "Push gently",
-        text: "The upper gear drives the lower one to the right; the picture goes along with the lower. There is a little play between them.",
+        text: "The upper gear drives the lower one to the right, with a little play between their teeth.",
         act: (story) => story.button("Push", () => story.show(found(SLOW))),
         verdict: (story, motion) =>
           apart(motion)
@@ -110,7 +110,7 @@ gearpair.define(
       },
       {
         title: "Listen to both",
-        text: `Tooth force as sound, not your gearbox; the resonance of the mesh is set to ${listen.NATURAL.value} Hz.`,
+        text: "Tooth force as sound, not your gearbox.",
         act: (story) => {
           const both = story.both();
           const heard = both.map(({ state, settled }) =>
