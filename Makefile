@@ -149,7 +149,7 @@ TEACH_READY := $(TEACH_VENV)/.ready
 TEACH_ARGS ?=
 
 teach: $(TEACH_READY)
-	@$(TEACH_VENV)/bin/python -m pytest -o addopts= -p no:cacheprovider -n 3 --dist loadfile --no-loadscope-reorder \
+	@$(TEACH_VENV)/bin/python -m pytest -o addopts= -p no:cacheprovider -n 3 --no-loadscope-reorder \
 		tests/teach $(TEACH_ARGS)
 
 course: $(TEACH_READY)

@@ -197,7 +197,7 @@ class ByCourse(LoadScopeScheduling):
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config, log):
-    """In place of whatever ``--dist`` says."""
+    """The only one here: no ``--dist`` is asked for."""
     return ByCourse(config, log)
 
 

@@ -48,20 +48,18 @@ def best_durations(best: Sequence[Hypothesis]) -> str:
     >>> best_durations([PRINTED])
     'It has the two durations of the stiffness wave as printed: stiff for ε − 1 of the mesh period.'
     """
-    found = {each.stiff_for for each in best}
-    which, singular = {1: "It", 2: "Both"}.get(len(best), "All of these"), len(best) == 1
-    if found == {SWAPPED.stiff_for}:
-        verb = "interchanges" if singular else "interchange"
+    swapped, one = _swapped(best), len(best) == 1
+    if 0 < swapped < len(best):
+        return (
+            f"Of these {len(best)}, {swapped} interchange the two durations of the stiffness wave and "
+            f"{len(best) - swapped} leave them as printed, so this run does not settle which was computed."
+        )
+    which = {1: "It", 2: "Both"}.get(len(best), "All of these")
+    if swapped:
         durations = "stiff for 2 − ε of the mesh period, soft for ε − 1"
-        return f"{which} {verb} the two durations of the stiffness wave: {durations}."
-    if found == {PRINTED.stiff_for}:
-        verb = "has" if singular else "have"
-        return f"{which} {verb} the two durations of the stiffness wave as printed: stiff for ε − 1 of the mesh period."
-    swapped = sum(each.stiff_for == SWAPPED.stiff_for for each in best)
-    return (
-        f"Of these {len(best)}, {swapped} interchange the two durations of the stiffness wave and "
-        f"{len(best) - swapped} leave them as printed, so this run does not settle which was computed."
-    )
+        return f"{which} interchange{'s' if one else ''} the two durations of the stiffness wave: {durations}."
+    verb = "has" if one else "have"
+    return f"{which} {verb} the two durations of the stiffness wave as printed: stiff for ε − 1 of the mesh period."
 
 
 @checked
@@ -89,11 +87,10 @@ def which_reading(best: Sequence[Hypothesis]) -> str:
     >>> which_reading([SWAPPED, PRINTED])[:60]
     'This run does not tell: of the 2 readings that do best, 1 ha'
     """
-    swapped = sum(each.stiff_for == SWAPPED.stiff_for for each in best)
-    if swapped < len(best):
+    if printed := len(best) - _swapped(best):
         return (
-            f"This run does not tell: of the {len(best)} readings that do best, {len(best) - swapped} "
-            f"{'has' if len(best) - swapped == 1 else 'have'} the durations as printed. Ask at more values."
+            f"This run does not tell: of the {len(best)} readings that do best, {printed} "
+            f"{'has' if printed == 1 else 'have'} the durations as printed. Ask at more values."
         )
     open_ = _differing(best)
     agreed = [name for name in CHOICES if name != "stiff_for" and CHOICES[name] not in open_]
@@ -227,6 +224,10 @@ def listed(words: Sequence[str]) -> str:
     ('order, phase and mean', 'mean')
     """
     return f"{', '.join(words[:-1])} and {words[-1]}" if len(words) > 1 else "".join(words)
+
+
+def _swapped(best: Sequence[Hypothesis]) -> int:
+    return sum(each.stiff_for == SWAPPED.stiff_for for each in best)
 
 
 def _differing(best: Sequence[Hypothesis]) -> list[str]:
