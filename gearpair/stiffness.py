@@ -193,7 +193,7 @@ class StiffnessWave:
 
 
 def _numbers(name: str, values: Sequence[float]) -> tuple[float, ...]:
-    array = np.asarray(values)
+    array = check_array(name, values, finite=False)
     if array.ndim != 1:
         raise ValueError(f"{name} must be a sequence of numbers (one dimension), got shape {array.shape}")
     return tuple(check_number(f"{name}[{i}]", value) for i, value in enumerate(array.tolist()))

@@ -215,6 +215,12 @@ VALUES = {
     ),
     "fraction must be finite, got nan": lambda: WAVE(NAN),
     "fraction must be real numbers, got None": lambda: WAVE(None),
+    "levels must be numbers, got masked ones among them": lambda: gp.StiffnessWave(
+        [0.0, 0.5], np.ma.masked_array([1.0, 2.0], [False, True])
+    ),
+    "osc must be damped alike in contact and in flight": lambda: DRIVE.with_oscillator(
+        BASELINE.replace(flight_damping=0.0)
+    ),
     "x must be two finite numbers in rising order, got -1": lambda: gp.find_orbits(BASELINE, 1, x=-1),
     "v must be two finite numbers in rising order, got (1.0, 0.0)": lambda: gp.find_orbits(BASELINE, 1, v=(1.0, 0.0)),
     "x_reach must be two finite numbers in rising order, got 3": lambda: gp.ensembles.basin_stability(
@@ -289,6 +295,10 @@ CLASSES = {
     ),
     "found[0] must be a Branch, as gearpair.continue_orbit gives it; got an Oscillator": lambda: gp.plotting.branches(
         [BASELINE]
+    ),
+    "path must be a path, or a file open for writing bytes, got True": lambda: gp.design.write_wav(
+        True,  # which scipy takes for the standard output
+        gp.design.Sound(np.zeros(10), 8000, 1.0),
     ),
     "ax must be an Axes; got 3": lambda: gp.plotting.stiffness_wave(WAVE, 3),
 }
