@@ -9,7 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from gearpair._checks import check_count, check_fields, check_number, checked, shown
+from gearpair._checks import check_class, check_count, check_fields, check_number, checked, shown
 from gearpair.drive_file import read_drive_file, write_drive_file
 from gearpair.harmonics import (
     Error,
@@ -119,6 +119,9 @@ class GearDrive(Scales):
         check_fields(self, **LIMITS)
         if not isinstance(self.stiffness, StiffnessWave):
             raise ValueError(f"stiffness must be a StiffnessWave, got {shown(self.stiffness)}")
+        for name, kind in PARTS.items():
+            if getattr(self, name) is not None:
+                check_class(name, getattr(self, name), kind)
         for name, lowest in (("error_harmonics", 2), ("profile_harmonics", 1)):
             object.__setattr__(self, name, check_harmonics(name, getattr(self, name), lowest))
         object.__setattr__(self, "shaft_orders", check_shaft_orders("shaft_orders", self.shaft_orders))
@@ -336,5 +339,6 @@ class GearDrive(Scales):
         )
 
 
+PARTS = {"relief": TipRelief, "mesh": MeshStiffness, "pinion_blank": GearBlank, "gear_blank": GearBlank}
 FIELDS = tuple(each.name for each in dataclasses.fields(GearDrive))
 DRAWN = {*PAIR} - {*FIELDS} | {*DRAWING}  # only where there is a drawing

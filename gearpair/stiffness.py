@@ -9,7 +9,7 @@ from typing import Any, Literal, Self, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_array, check_choice, check_count, check_number, plain
+from gearpair._checks import check_array, check_choice, check_class, check_count, check_number, plain
 
 Reading = Literal["printed", "swapped"]
 READINGS = get_args(Reading)
@@ -54,6 +54,8 @@ class StiffnessWave:
 
     def __post_init__(self) -> None:
         edges, levels = _numbers("edges", self.edges), _numbers("levels", self.levels)
+        if self.rectangle is not None:
+            check_class("rectangle", self.rectangle, Rectangle)
         object.__setattr__(self, "edges", edges)
         object.__setattr__(self, "levels", levels)
         if len(edges) == 0 or len(edges) != len(levels):

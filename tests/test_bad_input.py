@@ -1,5 +1,6 @@
 """Bad input gets one sentence, at once: the name, the value, what is allowed."""
 
+import dataclasses
 import inspect
 from decimal import Decimal
 
@@ -215,6 +216,7 @@ VALUES = {
     ),
     "fraction must be finite, got nan": lambda: WAVE(NAN),
     "fraction must be real numbers, got None": lambda: WAVE(None),
+    "shortest must be a finite number, got nan": lambda: gp.bifurcations.stable_ranges([BRANCH], shortest=NAN),
     "levels must be numbers, got masked ones among them": lambda: gp.StiffnessWave(
         [0.0, 0.5], np.ma.masked_array([1.0, 2.0], [False, True])
     ),
@@ -295,6 +297,9 @@ CLASSES = {
     ),
     "found[0] must be a Branch, as gearpair.continue_orbit gives it; got an Oscillator": lambda: gp.plotting.branches(
         [BASELINE]
+    ),
+    "mesh must be a MeshStiffness, got a SpurPair: hand over gearpair.mesh_stiffness of it": lambda: (
+        dataclasses.replace(DRIVE, mesh=gp.SpurPair())
     ),
     "path must be a path, or a file open for writing bytes, got True": lambda: gp.design.write_wav(
         True,  # which scipy takes for the standard output

@@ -54,7 +54,7 @@ def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, legend: bool =
         if estimate.escapes:
             ax.plot(tau, fitted, color=colour, linewidth=0.9, linestyle="--")
         if legend:
-            ax.legend(loc="upper right")
+            ax.legend(loc="best")
     ax.set_yscale("log")
     ax.set(xlabel=axis_label("waited"), ylabel=axis_label("survivors"), xlim=(0.0, end))
     ax.set_ylim(1.4 * BELOW, 1.4 * max(survivors[0], 1))

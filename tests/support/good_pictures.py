@@ -179,6 +179,6 @@ OBJECTS = {
     "ToothProfile.involute": lambda: (teeth.ToothProfile(PINION).involute, {"roll": 0.364}),
     **{
         f"teaching.{name}": lambda name=name: (getattr(teaching, name), {"student_id": "1234567"})
-        for name in ("check_student_id", "given_to_tests", "true_rig", *PERSONAL)
+        for name in ("check_student_id", "true_rig", *PERSONAL)
     },
 }
