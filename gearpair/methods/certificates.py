@@ -76,7 +76,7 @@ class Segment:
 
     def __call__(self, t: ArrayLike) -> Any:
         """X at `t` by the series."""
-        return plain(np.polynomial.polynomial.polyval(check_array("t", t), self.series))
+        return plain(np.asarray(np.polynomial.polynomial.polyval(check_array("t", t), self.series), dtype=float))
 
     @cached_property
     def control_points(self) -> NDArray[np.float64]:
