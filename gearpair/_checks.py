@@ -206,7 +206,7 @@ def checked(function: Function) -> Function:
     """Let a public function say in a sentence what it was handed by mistake: what its annotations do not allow.
 
     Classes of the library, datasets, texts, truth values, mappings and sequences of these raise a TypeError; ranges of
-    numbers are the function's own. A dataset without what the function reads in it raises a ValueError.
+    numbers are the function's own, but nan is none. A dataset without what a function reads in it raises a ValueError.
     """
     parameters = signature(function).parameters
     places = list(parameters)
@@ -265,6 +265,8 @@ def _check_kind(name: str, value: Any, kinds: tuple[Any, ...]) -> None:
     """Raise a TypeError unless a value is of one of the `kinds`."""
     numbers = int in kinds or float in kinds
     if any(_is_kind(value, kind) for kind in kinds) or (numbers and name in STARTS):
+        if float in kinds and name not in STARTS and is_number(value) and value != value:
+            raise ValueError(f"{name} must be a finite number, got nan")
         for kind in kinds:
             _check_members(name, value, kind)
         return

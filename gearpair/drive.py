@@ -9,7 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from gearpair._checks import check_count, check_fields, check_number, checked
+from gearpair._checks import check_class, check_count, check_fields, check_number, checked, shown
 from gearpair.drive_file import read_drive_file, write_drive_file
 from gearpair.harmonics import (
     Error,
@@ -118,7 +118,10 @@ class GearDrive(Scales):
         object.__setattr__(self, "pinion_teeth", check_count("pinion_teeth", self.pinion_teeth))
         check_fields(self, **LIMITS)
         if not isinstance(self.stiffness, StiffnessWave):
-            raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
+            raise ValueError(f"stiffness must be a StiffnessWave, got {shown(self.stiffness)}")
+        for name, kind in PARTS.items():
+            if getattr(self, name) is not None:
+                check_class(name, getattr(self, name), kind)
         for name, lowest in (("error_harmonics", 2), ("profile_harmonics", 1)):
             object.__setattr__(self, name, check_harmonics(name, getattr(self, name), lowest))
         object.__setattr__(self, "shaft_orders", check_shaft_orders("shaft_orders", self.shaft_orders))
@@ -316,12 +319,15 @@ class GearDrive(Scales):
             shaft_orders=scaled(self.shaft_orders, 1e-6 / self.half_backlash_m),
         )
 
+    @checked
     def with_oscillator(self, osc: Oscillator) -> Self:
         """The drive of the same teeth, inertias, radii, k_m and b_h whose oscillator is `osc`.
 
         Torque, speed, transmission error, errors of shafts, damping, phase and stiffness follow from `osc`, nothing
-        from a relief.
+        from a relief. A drive has one damper, so one with another `flight_damping` raises a ValueError.
         """
+        if osc.damping_in_flight != osc.damping_ratio:
+            raise ValueError(f"osc must be damped alike in contact and in flight, got {osc!r}")
         unit_um = self.half_backlash_m * 1e6
         return dataclasses.replace(self, relief=None, profile_harmonics=()).replace(
             pinion_torque_nm=osc.mean_force * self.unit_force_n * self.pinion_base_radius_mm * 1e-3,
@@ -333,5 +339,6 @@ class GearDrive(Scales):
         )
 
 
+PARTS = {"relief": TipRelief, "mesh": MeshStiffness, "pinion_blank": GearBlank, "gear_blank": GearBlank}
 FIELDS = tuple(each.name for each in dataclasses.fields(GearDrive))
 DRAWN = {*PAIR} - {*FIELDS} | {*DRAWING}  # only where there is a drawing

@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearpair._checks import check_array, check_class, check_fields, check_number, checked, plain, shown
+from gearpair._checks import check_array, check_class, check_count, check_fields, check_number, checked, plain, shown
 from gearpair._flow.cells import Cells, Coefficients, build_cells
 from gearpair.harmonics import Harmonic, ShaftOrder, check_harmonics, check_shaft_orders
 from gearpair.quantities import ROWS, Part, part_of
@@ -100,7 +100,7 @@ class Oscillator:
             mesh_frequency={"above": 0.0},
         )
         if not isinstance(self.stiffness, StiffnessWave):
-            raise ValueError(f"stiffness must be a StiffnessWave, got {self.stiffness!r}")
+            raise ValueError(f"stiffness must be a StiffnessWave, got {shown(self.stiffness)}")
         object.__setattr__(self, "harmonics", check_harmonics("harmonics", self.harmonics))
         object.__setattr__(self, "shaft_orders", check_shaft_orders("shaft_orders", self.shaft_orders))
         if self.mesh_periods > MOST_MESH_PERIODS:
@@ -147,7 +147,7 @@ class Oscillator:
         >>> Oscillator().base_periods(500), Oscillator(shaft_orders=[(34, 0.1)]).base_periods(500)
         (500, 15)
         """
-        return -(-mesh_periods // self.mesh_periods)
+        return -(-check_count("mesh_periods", mesh_periods, at_least=0) // self.mesh_periods)
 
     @property
     def damping_in_flight(self) -> float:

@@ -9,7 +9,7 @@ from typing import Any, Literal, Self, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_array, check_choice, check_count, check_number, plain
+from gearpair._checks import check_array, check_choice, check_class, check_count, check_number, plain
 
 Reading = Literal["printed", "swapped"]
 READINGS = get_args(Reading)
@@ -54,6 +54,8 @@ class StiffnessWave:
 
     def __post_init__(self) -> None:
         edges, levels = _numbers("edges", self.edges), _numbers("levels", self.levels)
+        if self.rectangle is not None:
+            check_class("rectangle", self.rectangle, Rectangle)
         object.__setattr__(self, "edges", edges)
         object.__setattr__(self, "levels", levels)
         if len(edges) == 0 or len(edges) != len(levels):
@@ -193,7 +195,7 @@ class StiffnessWave:
 
 
 def _numbers(name: str, values: Sequence[float]) -> tuple[float, ...]:
-    array = np.asarray(values)
+    array = check_array(name, values, finite=False)
     if array.ndim != 1:
         raise ValueError(f"{name} must be a sequence of numbers (one dimension), got shape {array.shape}")
     return tuple(check_number(f"{name}[{i}]", value) for i, value in enumerate(array.tolist()))

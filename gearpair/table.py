@@ -1,11 +1,12 @@
 """Tables for people: aligned as text, ruled as HTML, the same numbers in both."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape, unescape
 from typing import Any
 
+from gearpair._checks import shown
 from gearpair.quantities import LETTERS
 
 # Plain names of symbols, and how they are set in HTML.
@@ -40,8 +41,10 @@ class Table:
     rows: Sequence[Sequence[Any]]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "columns", tuple(str(column) for column in self.columns))
-        object.__setattr__(self, "rows", tuple(tuple(str(cell) for cell in row) for row in self.rows))
+        columns, rows = _members("columns", self.columns), _members("rows", self.rows)
+        object.__setattr__(self, "columns", tuple(map(str, columns)))
+        texts = tuple(tuple(map(str, _members(f"rows[{i}]", row))) for i, row in enumerate(rows))
+        object.__setattr__(self, "rows", texts)
         for i, row in enumerate(self.rows):
             if len(row) != len(self.columns):
                 raise ValueError(f"row {i} of the table must have {len(self.columns)} cells, got {len(row)}")
@@ -74,6 +77,12 @@ class Table:
 
         head, body = line("th", self.columns), "\n".join(line("td", row) for row in self.rows)
         return f'<table class="table">\n<thead>\n{head}\n</thead>\n<tbody>\n{body}\n</tbody>\n</table>'
+
+
+def _members(name: str, given: Any) -> tuple[Any, ...]:
+    if isinstance(given, (str, bytes)) or not isinstance(given, Iterable):
+        raise TypeError(f"{name} must be a sequence, got {shown(given)}")
+    return tuple(given)
 
 
 def _html(cell: str) -> str:

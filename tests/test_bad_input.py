@@ -1,5 +1,6 @@
 """Bad input gets one sentence, at once: the name, the value, what is allowed."""
 
+import dataclasses
 import inspect
 from decimal import Decimal
 
@@ -215,6 +216,13 @@ VALUES = {
     ),
     "fraction must be finite, got nan": lambda: WAVE(NAN),
     "fraction must be real numbers, got None": lambda: WAVE(None),
+    "shortest must be a finite number, got nan": lambda: gp.bifurcations.stable_ranges([BRANCH], shortest=NAN),
+    "levels must be numbers, got masked ones among them": lambda: gp.StiffnessWave(
+        [0.0, 0.5], np.ma.masked_array([1.0, 2.0], [False, True])
+    ),
+    "osc must be damped alike in contact and in flight": lambda: DRIVE.with_oscillator(
+        BASELINE.replace(flight_damping=0.0)
+    ),
     "x must be two finite numbers in rising order, got -1": lambda: gp.find_orbits(BASELINE, 1, x=-1),
     "v must be two finite numbers in rising order, got (1.0, 0.0)": lambda: gp.find_orbits(BASELINE, 1, v=(1.0, 0.0)),
     "x_reach must be two finite numbers in rising order, got 3": lambda: gp.ensembles.basin_stability(
@@ -289,6 +297,13 @@ CLASSES = {
     ),
     "found[0] must be a Branch, as gearpair.continue_orbit gives it; got an Oscillator": lambda: gp.plotting.branches(
         [BASELINE]
+    ),
+    "mesh must be a MeshStiffness, got a SpurPair: hand over gearpair.mesh_stiffness of it": lambda: (
+        dataclasses.replace(DRIVE, mesh=gp.SpurPair())
+    ),
+    "path must be a path, or a file open for writing bytes, got True": lambda: gp.design.write_wav(
+        True,  # which scipy takes for the standard output
+        gp.design.Sound(np.zeros(10), 8000, 1.0),
     ),
     "ax must be an Axes; got 3": lambda: gp.plotting.stiffness_wave(WAVE, 3),
 }

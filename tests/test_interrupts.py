@@ -34,6 +34,11 @@ CALLS = {
     "trajectory": "gp.trajectory(osc, 1.0, 0.0, 10**7, samples_per_period=1)",
     "impact_measures": "gp.motion.impact_measures(gp.steady_state(osc), n_periods=4 * 10**6)",
     "stroboscopic_map": "gp.stroboscopic_map(osc, 1.0, 0.0, 4 * 10**7)",
+    "carried_sweeps": "gp.ensembles.carried_sweeps(gp.steady_state(osc), 'mesh_frequency', np.arange(1.2, 1.3, 1e-5))",
+    "survival_along": "gp.ensembles.survival_along(osc, 'damping_ratio', X[:9] / 500 + .02, X, 0.0, n_periods=10**7)",
+    "periodic_orbit": "gp.periodic_orbit(osc, 1.0, 0.0, 10**7)",
+    "manifolds": "gp.manifolds(gp.periodic_orbit(osc, 1.00827, -0.33902, 1), length=1e7, max_points=10**8)",
+    "find_branches": "gp.find_branches(osc, 'mesh_frequency', 0.5, 1.6, max_period=9)",
     "find_orbits": "gp.find_orbits(osc, 12, n_starts=10**6)",
     "speed_chart": "gp.design.speed_chart(DRIVE, np.linspace(1500.0, 9000.0, 3000), n_starts=12)",
 }

@@ -86,6 +86,8 @@ def compare_attractors(
     """
     check_count("digits", digits, at_least=0)
     ranges = list(stated)
+    if not ranges:
+        raise ValueError("stated must hold one range at least, got none")
     rows = []
     for value, plane in planes.items():
         here = next((r for r in ranges if value in r or value == ranges[-1].upper == r.upper), None)
@@ -132,6 +134,9 @@ def compare_boundaries(
     ('0.0160', '-0.0005')
     """
     check_count("digits", digits, at_least=0)
+    boundaries = list(boundaries)
+    if len(boundaries) + 1 != len(stated):
+        raise ValueError(f"stated must be the ranges between {len(boundaries)} boundaries, one more, got {len(stated)}")
     changes = _changes(found, gap)
     rows = []
     for boundary, below, above in zip(boundaries, stated[:-1], stated[1:], strict=True):

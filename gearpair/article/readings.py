@@ -8,7 +8,7 @@ from typing import Literal, get_args, get_type_hints
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearpair._checks import check_choice, check_number
+from gearpair._checks import check_array, check_choice, check_number
 from gearpair.article import published
 from gearpair.oscillator import Oscillator
 from gearpair.stiffness import StiffnessWave
@@ -84,6 +84,8 @@ class Hypothesis:
         damping_ratio: float = published.BASELINE.damping_ratio,
     ) -> Oscillator:
         """The article's baseline in this reading."""
+        mesh_frequency = check_number("mesh_frequency", mesh_frequency, above=0.0)
+        damping_ratio = check_number("damping_ratio", damping_ratio, at_least=0.0)
         base, wave = published.BASELINE, self.wave
         scale = {"2 zeta": 1.0, "zeta": 0.5, "2 zeta sqrt(mean)": float(np.sqrt(wave.mean))}[self.damping]
         return Oscillator(
@@ -98,7 +100,7 @@ class Hypothesis:
     def along(self, parameter: str, values: ArrayLike) -> list[Oscillator]:
         """One oscillator per value of a parameter that the article varies."""
         published.ranges(parameter)
-        return [self.oscillator(**{parameter: float(value)}) for value in np.asarray(values)]
+        return [self.oscillator(**{parameter: float(value)}) for value in check_array("values", values, ndim=1)]
 
 
 # What the fields that are words may be.

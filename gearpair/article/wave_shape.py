@@ -29,6 +29,7 @@ class SweptWave:
     up: xr.Dataset
     down: xr.Dataset
 
+    @checked
     def share_met(self, reference: SweptWave) -> float:
         """The share of the frequencies at which some motion is met with both waves, counting both sweeps of each."""
         met = [

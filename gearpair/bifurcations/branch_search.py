@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gearpair._checks import check_count, check_reach, checked
+from gearpair._checks import check_count, check_number, check_reach, checked
 from gearpair.bifurcations.branches import LARGEST_X, SIZES, Branch, continue_orbit, limit_of
 from gearpair.bifurcations.doubling import doubled_orbit
 from gearpair.bifurcations.locating import Bifurcation
@@ -48,6 +48,7 @@ def find_branches(
     """
     lower, upper = check_reach("lower and upper", (lower, upper))
     branches: list[Branch] = []
+    check_number("largest_x", largest_x, above=0.0)
     for value in np.linspace(lower, upper, check_count("n_values", n_values)).tolist():
         waiting: list[PeriodicOrbit | Bifurcation] = [
             *find_orbits(osc.replace(**{parameter: value}), max_period, n_starts=n_starts)

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearpair._checks import check_count, check_reach, checked
-from gearpair._cores import on_all_cores
+from gearpair._cores import aside, on_all_cores
 from gearpair._equality import equal_by_value
-from gearpair._flow.newton import newton_starts
+from gearpair._flow.newton import NEWTON_STEPS, newton_starts
 from gearpair.bifurcations._orbit_problem import describe_cycle
 from gearpair.motion.impacts import ImpactState, impact_state
 from gearpair.motion.names import Motion, periodic
@@ -148,17 +148,19 @@ def _newton(
     """Where Newton's method ends from each start (n, 2), the orbit's own period (0: none found) and the residual."""
     n = len(starts)
     ends, periods, residuals = np.empty_like(starts), np.zeros(n, np.int64), np.empty(n)
-    on_all_cores(newton_starts, (osc.cells, starts, period, ends, periods, residuals), n, STARTS_AT_ONCE)
+    arguments, longest = (osc.cells, starts, period, ends, periods, residuals), NEWTON_STEPS * period * osc.mesh_periods
+    on_all_cores(newton_starts, arguments, n, STARTS_AT_ONCE, longest=longest)
     return ends, periods, residuals
 
 
 def orbit_at(osc: Oscillator, x: float, v: float, period: int) -> PeriodicOrbit:
     """Describe the orbit of `period` through (x, v), which Newton's method has found."""
-    cycle = describe_cycle(osc.coefficients, x, v, period)
+    span = period * osc.mesh_periods
+    cycle = aside(describe_cycle, osc.coefficients, x, v, period, periods=span)
     lowest = int(np.argmin(cycle.points[:, 0]))
     if lowest:
         x, v = cycle.points[lowest].tolist()
-        cycle = describe_cycle(osc.coefficients, x, v, period)
+        cycle = aside(describe_cycle, osc.coefficients, x, v, period, periods=span)
     return PeriodicOrbit(
         oscillator=osc,
         status=NewtonStatus.CONVERGED,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_class, check_count, check_number, checked
+from gearpair._checks import check_class, check_count, check_number, checked, shown
 from gearpair._equality import equal_by_value
 from gearpair.design.loads import sampled_force_n
 from gearpair.drive import GearDrive
@@ -161,6 +161,8 @@ def write_wav(path: str | Path | BinaryIO, heard: Sound) -> None:
     from scipy.io import wavfile
 
     check_class("heard", heard, Sound)
+    if not isinstance(path, (str, Path)) and not hasattr(path, "write"):
+        raise TypeError(f"path must be a path, or a file open for writing bytes, got {shown(path)}")
     wavfile.write(path, heard.rate, np.round(heard.samples * 32767.0).astype(np.int16))
 
 

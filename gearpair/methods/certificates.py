@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_count, checked, plain
+from gearpair._checks import check_array, check_count, checked, plain
 from gearpair._equality import equal_by_value
 from gearpair._flow.closed_form import DEGREE, REACH, TERMS, evaluate_jerk
 from gearpair._flow.event_search import MAX_STEPS, MONOTONE, ROUNDING, certified_step
@@ -76,7 +76,7 @@ class Segment:
 
     def __call__(self, t: ArrayLike) -> Any:
         """X at `t` by the series."""
-        return plain(np.polynomial.polynomial.polyval(np.asarray(t, dtype=float), self.series))
+        return plain(np.asarray(np.polynomial.polynomial.polyval(check_array("t", t), self.series), dtype=float))
 
     @cached_property
     def control_points(self) -> NDArray[np.float64]:
@@ -90,7 +90,7 @@ class Segment:
     def cubic(self, t: ArrayLike) -> Any:
         """The cubic Hermite interpolant at `t`."""
         b0, b1, b2, b3 = self.control_points[:, 1]
-        s = np.asarray(t, dtype=float) / self.span
+        s = check_array("t", t) / self.span
         r = 1.0 - s
         return plain(b0 * r**3 + 3.0 * b1 * r**2 * s + 3.0 * b2 * r * s**2 + b3 * s**3)
 

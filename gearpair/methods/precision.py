@@ -291,7 +291,12 @@ def loosest_told(measured: Sequence[Precision], method: str = "RK45") -> str:
     >>> loosest_told([Precision("RK45", 1e-3, 2e-4, 1.0)])
     'less than the 0.001 that was asked for'
     """
-    loosest = max((each for each in measured if each.method == method), key=lambda each: each.rtol)
+    own = [each for each in measured if each.method == method]
+    if not own:
+        raise ValueError(
+            f"measured must have one of method {method!r}, got those of {[each.method for each in measured]}"
+        )
+    loosest = max(own, key=lambda each: each.rtol)
     asked = f"{loosest.rtol:g}"
     if loosest.error > 10.0 * loosest.rtol:
         return f"more than {10.0 * loosest.rtol:g}, although {asked} was asked for"

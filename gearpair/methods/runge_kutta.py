@@ -226,6 +226,7 @@ class Integrator:
         atol = "" if self.atol is None else f", atol {self.atol:g}"
         return f"RK45, rtol {self.rtol:g}{atol}" + (f", at least {self.steps} steps" if self.steps else "")
 
+    @checked
     def sections(
         self, oscillators: Sequence[Oscillator], x: float, v: float, n_discarded: int, n_kept: int, *, chain: int = 1
     ) -> NDArray[np.float64]:
@@ -257,11 +258,16 @@ class Integrator:
         points[status != COMPLETE] = np.nan
         return points
 
+    @checked
     def integrate(
         self, oscillators: Sequence[Oscillator], x: float, v: float, n_discarded: int, n_kept: int, chain: int = 1
     ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
         """As `sections`: points (n, n_kept, 2), how each integration ended (n,), calls of the right-hand side (n,)."""
+        n_discarded = check_count("n_discarded", n_discarded, at_least=0)
+        n_kept, chain = check_count("n_kept", n_kept), check_count("chain", chain)
         n, n_periods = len(oscillators), n_discarded + n_kept - 1
+        if n == 0 or n % chain:
+            raise ValueError(f"oscillators must be one chain of {chain} at least, or several, got {n} oscillators")
         lanes = lanes_of(oscillators, np.broadcast_to(check_start(x, v), (n, 2)), ONE)
         mesh_periods = n_periods * lanes.mesh_periods
         steps = Steps(0.0, 0.0, self.steps or 0, 0)

@@ -91,10 +91,11 @@ def impact_measures(state: SteadyState, *, n_periods: int = 2000) -> ImpactMeasu
     """
     if state.status in (Status.ESCAPED, Status.CAPPED):
         raise ValueError(f"only a motion that stays bounded has impact measures, got one with status {state.status!r}")
+    n_periods = check_count("n_periods", n_periods)
     row = np.empty(at.N_MEASURES)
     x, v = map(float, state.points[0])
     osc = state.oscillator
-    span = state.period or osc.base_periods(check_count("n_periods", n_periods))
+    span = state.period or osc.base_periods(n_periods)
     status = aside(measure, osc.cells, x, v, span, np.empty(TERMS), row, periods=span * osc.mesh_periods * WATCHED)
     assert status == OK, "the same motion stayed bounded while it settled"
     columns = measure_columns(row[np.newaxis], np.array([osc.mean_force]))

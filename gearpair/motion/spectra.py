@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import checked, shown
+from gearpair._checks import check_number, checked, shown
 from gearpair._equality import equal_by_value
 from gearpair.motion.trajectories import Trajectory
 
@@ -31,7 +31,7 @@ class Spectrum:
 
     def line(self, frequency: float) -> float:
         """The amplitude at the sampled frequency nearest to `frequency` (units of the mesh frequency)."""
-        return float(self.amplitude[np.argmin(np.abs(self.frequency - frequency))])
+        return float(self.amplitude[np.argmin(np.abs(self.frequency - check_number("frequency", frequency)))])
 
 
 @checked

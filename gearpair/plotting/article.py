@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
-from gearpair._checks import checked
+from gearpair._checks import check_array, checked
 from gearpair.article import published
 from gearpair.article.case.existence import Reached
 from gearpair.article.case.scoring import published_motions
@@ -20,7 +20,17 @@ from gearpair.article.case.trials import Ranked, Trial
 from gearpair.article.published import StiffnessRow
 from gearpair.article.readings import Hypothesis
 from gearpair.plotting.paper import faint, legible, look_of
-from gearpair.plotting.style import BACKLASH, BOUNDARY, INK, book_style, colour_on, name_rows, new_axes, note
+from gearpair.plotting.style import (
+    BACKLASH,
+    BOUNDARY,
+    INK,
+    book_style,
+    colour_on,
+    name_rows,
+    new_axes,
+    note,
+    these_axes,
+)
 from gearpair.quantities import QUANTITIES, axis_label
 
 
@@ -143,6 +153,7 @@ def boundaries_by_step(trials: Sequence[Trial], axes: Sequence[Axes] | None = No
     if axes is None:
         with plt.style.context(book_style(**{"font.size": 8.0, "axes.labelsize": 8.0, "axes.titlesize": 8.5})):
             axes = list(plt.figure(figsize=(8.6, 4.2)).subplots(2, 4, sharex=True).flat)
+    axes = these_axes(axes, 8)
     looks = {"restart": ("o", INK), "up": ("^", "#D55E00"), "down": ("v", "#009E73")}
     boundaries = published.FREQUENCY_BOUNDARIES + published.DAMPING_BOUNDARIES
     for ax, boundary in zip(axes, boundaries, strict=True):
@@ -189,7 +200,7 @@ def stiffness_trends(
     >>> axes[0].get_xticks().tolist(), axes[1].get_title()
     ([34, 44, 54], '$a$')
     """
-    colours = ("#D55E00", INK, "#009E73")
+    colours, axes = ("#D55E00", INK, "#009E73"), these_axes(axes, 3)
     for ax, name in zip(axes, ("contact_ratio", "a", "b"), strict=True):
         for k, (label, rows) in enumerate({"the article": published, **computed}.items()):
             teeth, values = [row.teeth_wheel for row in rows], [getattr(row, name) for row in rows]
@@ -224,7 +235,9 @@ def contact_ratio_cloud(
     (2, '*')
     """
     ax = new_axes(ax, 3.2)
-    values = np.asarray(ratios, dtype=float)
+    values = check_array("ratios", ratios)
+    if values.ndim != 2 or values.shape[1] != len(published) or not values.size:
+        raise ValueError(f"ratios must have a column for each of {len(published)} pairs, got shape {values.shape}")
     first, last = published[0], published[-1]
     usual: dict[str, Any] = {"linestyle": "", "marker": ".", "markersize": 3, "markeredgewidth": 0, "alpha": 0.45}
     dots = look_of(Line2D, look, color=legible(ax, INK), rasterized=True, **usual)

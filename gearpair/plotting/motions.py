@@ -17,7 +17,7 @@ from gearpair.motion.spectra import spectrum as spectrum_of
 from gearpair.motion.steady import SteadyState
 from gearpair.motion.trajectories import Trajectory, trajectory
 from gearpair.plotting.paper import legible, look_of, paper
-from gearpair.plotting.style import BOUNDARY, INK, book_style, colour_on, new_axes, shade_backlash
+from gearpair.plotting.style import BOUNDARY, INK, book_style, colour_on, new_axes, shade_backlash, these_axes
 from gearpair.quantities import QUANTITIES, axis_label
 
 SHOWN_PERIODS = 8  # mesh periods of a time history
@@ -193,6 +193,7 @@ def portrait(state: SteadyState, axes: Sequence[Axes] | None = None, *, title: s
     if axes is None:
         with plt.style.context(book_style()):
             axes = list(plt.figure(figsize=(8.0, 5.4)).subplots(2, 2).flat)
+    axes = these_axes(axes, 4)
     period, look = state.period, {"color": colour_on(axes[0], state.motion), **look_of(Line2D, look)}
     osc, whole = state.oscillator, state.oscillator.mesh_periods
     cycle = period * whole if period else None  # in mesh periods

@@ -19,7 +19,7 @@ from gearpair.design.found import BOTH, FLOAT, HISTORY, KEPT, LOSSES, RARE
 from gearpair.design.sensitivities import OUTCOMES
 from gearpair.plotting.maps import ENDS, HEIGHT, IMPACT_COLOURS, impact_colours, name_colours
 from gearpair.plotting.paper import legible, look_of, paper
-from gearpair.plotting.style import INK, add_legend, new_axes, note, over_parameter
+from gearpair.plotting.style import INK, add_legend, new_axes, note, over_parameter, these_axes
 from gearpair.quantities import axis_label
 
 # Lines need more contrast than areas: contact kept, lost on one side, both flanks struck.
@@ -196,7 +196,7 @@ def _strips(ax: Axes, chart: xr.Dataset) -> None:
 
 
 @checked
-def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes], **look: Any) -> tuple[Axes, Axes]:
+def tooth_loads(chart: xr.Dataset, axes: Sequence[Axes], **look: Any) -> list[Axes]:
     """What the teeth bear over the speed: the dynamic transmission error, and impacts, of both runs.
 
     Examples
@@ -209,7 +209,7 @@ def tooth_loads(chart: xr.Dataset, axes: tuple[Axes, Axes], **look: Any) -> tupl
     >>> [ax.get_ylabel() for ax in tooth_loads(chart, tuple(plt.figure().subplots(1, 2)))]
     ['dynamic transmission error, rms (µm)', 'largest impact velocity (mm/s)']
     """
-    left, right = axes
+    left, right = axes = these_axes(axes, 2)
     speed = chart.speed.values
     left.plot(speed, chart.linear_rms.values, color=GREY, linewidth=1.0, label="linear response")
     for run, style in (("up", "-"), ("down", (0, (2.5, 1.2)))):

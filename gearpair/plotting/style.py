@@ -189,6 +189,14 @@ def bare(ax: Axes) -> Axes:
     return ax
 
 
+def these_axes(axes: Sequence[Axes], n: int) -> list[Axes]:
+    """`axes`, which must be as many as a picture has parts."""
+    found = list(axes)
+    if len(found) != n:
+        raise ValueError(f"axes must be {n} Axes, got {len(found)}")
+    return found
+
+
 def new_axes(ax: Axes | None, height: float | None = None) -> Axes:
     """`ax`, or the only axes of a new figure in the book's style."""
     if ax is not None:

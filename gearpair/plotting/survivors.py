@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.typing import ColorType
 
-from gearpair._checks import checked
+from gearpair._checks import check_count, check_number, checked
 from gearpair.ensembles.lifetimes import estimate_of
 from gearpair.plotting.paper import legible, look_of
 from gearpair.plotting.style import BOUNDARY, INK, new_axes
@@ -54,7 +54,7 @@ def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, legend: bool =
         if estimate.escapes:
             ax.plot(tau, fitted, color=colour, linewidth=0.9, linestyle="--")
         if legend:
-            ax.legend(loc="upper right")
+            ax.legend(loc="best")
     ax.set_yscale("log")
     ax.set(xlabel=axis_label("waited"), ylabel=axis_label("survivors"), xlim=(0.0, end))
     ax.set_ylim(1.4 * BELOW, 1.4 * max(survivors[0], 1))
@@ -94,6 +94,9 @@ def survival_curves(
     >>> sorted(text.get_text() for text in ax.texts)
     ['at 1.09', 'at 1.219']
     """
+    lowest = check_number("lowest", lowest, above=0.0, below=1.0)
+    if until is not None:
+        until = check_count("until", until)
     ax = new_axes(ax, 4.0)
     estimates = {name: estimate_of(result) for name, result in results.items()}
     ranked = sorted((name for name in results if estimates[name].n_watched), key=lambda name: estimates[name].mean_life)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gearpair._checks import check_count, checked
 from gearpair.plotting.paper import legible, look_of, paper
-from gearpair.plotting.style import BOUNDARY, INK, add_legend, new_axes, note
+from gearpair.plotting.style import BOUNDARY, INK, add_legend, new_axes, note, these_axes
 from gearpair.quantities import axis_label
 from gearpair.teeth.finite_elements import MEASURES, FiniteElementBody
 from gearpair.teeth.loading import LoadedMesh
@@ -285,6 +285,7 @@ def under_load(
     >>> axes[0].get_ylabel(), [len(ax.lines) for ax in axes]
     ('approach (µm)', [1, 1, 2])
     """
+    axes = these_axes(axes, 3)
     for k, (name, loaded) in enumerate(meshes.items()):
         mesh = loaded.mesh
         line = look_of(Line2D, look, color=legible(axes[0], colours[k % len(colours)]), label=name)
@@ -323,7 +324,7 @@ def finite_element_check(body: FiniteElementBody, mesh: MeshStiffness, axes: Seq
     >>> [ax.get_ylabel() for ax in axes][1], len(axes[0].lines)
     ('deviation (%)', 4)
     """
-    upper, lower = axes
+    upper, lower = these_axes(axes, 2)
     unit = body.body.material.youngs_modulus_gpa * 1e9 * mesh.pair.contact_width_mm * 1e-3
     fast = unit * sum(v for name, v in mesh.compliance_m_per_n.items() if name.startswith(body.who))
     upper.plot(mesh.path, fast, color=legible(upper, INK), label="potential energy and foundation formula")

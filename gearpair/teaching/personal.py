@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gearpair._checks import shown
 from gearpair.bifurcations import continue_orbit, periodic_orbit
 from gearpair.drive import GearDrive
 from gearpair.motion import steady_state
@@ -74,7 +75,7 @@ def check_student_id(student_id: object) -> str:
     given = student_id.strip().lower() if isinstance(student_id, str) else ""
     if not ALLOWED.fullmatch(given):
         raise ValueError(
-            f"student_id must be your own id (2 to 64 letters, digits, '.', '_', '@' or '-'), got {student_id!r}"
+            f"student_id must be your own id (2 to 64 letters, digits, '.', '_', '@' or '-'), got {shown(student_id)}"
         )
     return given
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from gearpair._checks import check_number
+from gearpair._checks import check_number, checked
 from gearpair.teeth.spurgear import Material, SpurGear
 from gearpair.teeth.tooth_profile import ToothProfile
 
@@ -58,6 +58,7 @@ class GearBlank:
             check_number("rim_mm", self.rim_mm, above=0.0)
             check_number("web_mm", self.web_mm, above=0.0)
 
+    @checked
     def inertia_kg_m2(self, gear: SpurGear, face_width_mm: float | None = None) -> float:
         """The moment of inertia about the gear's axis: body, rim, web, the teeth as they are cut, and what is added.
 
@@ -73,7 +74,7 @@ class GearBlank:
             Where rim and hub leave no room for a web, the web is wider than the face, or the density is not known.
         """
         bore, root = gear.bore_mm, gear.root_circle_mm
-        width = gear.face_width_mm if face_width_mm is None else face_width_mm
+        width = gear.face_width_mm if face_width_mm is None else check_number("face_width_mm", face_width_mm, above=0.0)
         moment = width * (0.5 * math.pi * (root**4 - bore**4) + teeth_moment_mm4(gear))
         if self.rim_mm is not None and self.web_mm is not None:
             inner, outer = bore + self.hub_mm, root - self.rim_mm

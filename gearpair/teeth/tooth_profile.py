@@ -14,7 +14,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_choice, check_class
+from gearpair._checks import check_array, check_choice, check_class
 from gearpair.teeth.spurgear import SpurGear
 
 Array = NDArray[np.float64]
@@ -124,7 +124,7 @@ class ToothProfile:
         >>> round(float(y), 3), round(float(h), 3)
         (16.982, 0.785)
         """
-        t = np.asarray(roll, dtype=float)
+        t = check_array("roll", roll)
         angle = self.gear.base_half_angle - t  # the string's direction: the force makes -angle with the cross-section
         sine, cosine = np.sin(angle), np.cos(angle)
         r = self.base_radius
@@ -149,7 +149,7 @@ class ToothProfile:
         >>> round(float(np.hypot(y, h)), 3)
         15.75
         """
-        s = np.asarray(fraction, dtype=float)
+        s = check_array("fraction", fraction)
         if self.root != "trochoid":
             return self._line(s)
         gear, m = self.gear, self.gear.module_mm

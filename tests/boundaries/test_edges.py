@@ -43,6 +43,8 @@ def test_all_that_was_tracked_is_on_the_boundary():
     osc, start = BASELINE.replace(mesh_frequency=2.0), (-3.0, -0.5)
     found = gp.edge_state(osc, start, (-1.5, -0.5))
     assert found.tracked > 40 and found.orbit.period == 3
+    rate = np.log(np.abs(found.orbit.multipliers[0])) / (3.0 * osc.period)
+    assert found.exponent == pytest.approx(rate, rel=1e-14)
     sides = Sides(osc, start, {})
     angles = np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False)
     for point in found.points:
