@@ -1,5 +1,7 @@
 """Run-up, load change and schedules of a drive, against formulas and the steady motions between which they lead."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -68,6 +70,69 @@ def test_a_fast_ramp_is_late() -> None:
     assert lost[0] > lost[1] > lost[2]
     assert found[2] > found[0] + 5.0 and abs(found[1] - found[0]) < 1.0  # the jump up is abrupt
     assert lost[0] - lost[2] > 100.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ends", [(6200.0, 11_000.0), (11_000.0, 6200.0)])
+def test_steps_of_the_speed_are_a_smooth_ramp(ends: tuple[float, float]) -> None:
+    """Over the resonance in 50 ms: the speeds at which contact is first and last lost or made, to 0.1 rpm."""
+    seconds, per_period = 0.05, 800
+    run = run_up(DRIVE, *ends, seconds, accelerates=False, samples_per_period=per_period)
+    start = DRIVE.at_speed(float(run.speed[0])).oscillator()
+    fraction = np.arange(per_period) / per_period
+    error = np.array([start.replace(mesh_frequency=each / DRIVE.resonance_rpm).error(fraction * 2.0 * np.pi
+        * DRIVE.resonance_rpm / each) for each in run.speed.values])  # fmt: skip
+    x = (run.sample_dte.values / (DRIVE.half_backlash_m * 1e6) - error).ravel()
+    second = DRIVE.natural_frequency_rad_s
+    found = crossings(run.sample_time.values.ravel() * second, x)
+    first, rate = ends[0] / DRIVE.resonance_rpm, (ends[1] - ends[0]) / DRIVE.resonance_rpm / (seconds * second)
+    v = float(run.v[0]) + start.error_amplitude * (
+        start.mesh_frequency - first
+    )  # X' + e' goes on from the ramp's start
+    smooth = crossings(*smoothly(start, first, rate, float(run.x[0]), v, run.sizes["cycle"], per_period))
+    rpm = [(first + rate * each) * DRIVE.resonance_rpm for each in (found[[0, -1]], smooth[[0, -1]])]
+    assert rpm[0] == pytest.approx(rpm[1], abs=0.1)
+    assert abs(rpm[0][1] - rpm[0][0]) > 1500.0
+
+
+def crossings(tau: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """When samples of X cross 1, by straight lines."""
+    at = np.flatnonzero((x[1:] >= 1.0) != (x[:-1] >= 1.0))
+    return tau[at] + (1.0 - x[at]) / (x[at + 1] - x[at]) * (tau[at + 1] - tau[at])
+
+
+def smoothly(osc: gp.Oscillator, first: float, rate: float, x: float, v: float, n: int, per_period: int):
+    """Times and X of a motion while the mesh frequency is ``first + rate tau``, by Runge and Kutta's classical method.
+
+    The steps end where the stiffness switches, at phases of the mesh, so that k is one number in each.
+    """
+    edges, size = [*osc.stiffness.edges, 1.0], osc.error_amplitude
+    times, values = [], []
+
+    def pushed(tau: float, x: float, v: float, k: float) -> float:
+        omega, theta = first + rate * tau, (first + 0.5 * rate * tau) * tau
+        error = size * (omega**2 * math.sin(theta) - rate * math.cos(theta))  # -e''
+        return osc.mean_force + error - 2.0 * osc.damping_ratio * v - k * (x - min(max(x, -1.0), 1.0))
+
+    for cycle in range(n):
+        for k, begin, end in zip(osc.stiffness.levels, edges[:-1], edges[1:], strict=True):
+            turns = [2.0 * math.pi * (cycle + each) for each in (begin, end)]
+            tau, until = (2.0 * each / (first + math.sqrt(first**2 + 2.0 * rate * each)) for each in turns)
+            steps = math.ceil(per_period * (end - begin))
+            h = (until - tau) / steps
+            for _ in range(steps):
+                times.append(tau)
+                values.append(x)
+                a1 = pushed(tau, x, v, k)
+                v2 = v + 0.5 * h * a1
+                a2 = pushed(tau + 0.5 * h, x + 0.5 * h * v, v2, k)
+                v3 = v + 0.5 * h * a2
+                a3 = pushed(tau + 0.5 * h, x + 0.5 * h * v2, v3, k)
+                v4 = v + h * a3
+                a4 = pushed(tau + h, x + h * v3, v4, k)
+                x, v = x + h * (v + 2.0 * v2 + 2.0 * v3 + v4) / 6.0, v + h * (a1 + 2.0 * a2 + 2.0 * a3 + a4) / 6.0
+                tau += h
+    return np.array(times), np.array(values)
 
 
 def test_a_reversal_crosses_the_backlash() -> None:
