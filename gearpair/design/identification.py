@@ -168,7 +168,7 @@ def identify(
     ranges come nearest to the measured speeds, the folds are located by continuation, and then moved on to the speeds:
     Newton's method on the logarithms, by Gauss and Newton's where there are more speeds, with the exact shift of a
     fold, see `gearpair.bifurcations.fold_shift`. An answer counts if a run meets its folds. Of the pairs six are taken
-    as starts; where none of them leads to an answer, the twelve next best, until one does.
+    as starts; where none of them leads to an answer, the six next best, until one does.
 
     The intervals are linear in the logarithms, ``exp(+-1.96 s)``, from ``(J' J)^-1`` and `speed_error_rpm`, or the
     misfit of least squares where that is larger. What else the model leaves out is not in them. Jumps at which a motion

@@ -363,9 +363,9 @@ def mesh_cycles(drive: GearDrive, seconds: float, speed_rpm: Course, torque_nm: 
     at = np.searchsorted(times, seconds, side="right") - 1
     after = seconds - times[at]
     whole = begun[at] + after * (speeds[at] * rate + 0.5 * slopes[at] * after)
-    n = int(np.ceil(round(whole, 9)))
-    if n > MOST_CYCLES:
-        raise ValueError(f"seconds must leave at most {MOST_CYCLES} mesh periods, got {seconds}, which are {n}")
+    n = np.ceil(round(float(whole), 9))
+    if not n <= MOST_CYCLES:
+        raise ValueError(f"seconds must leave at most {MOST_CYCLES} mesh periods, got {seconds}, which are {n:.6g}")
     phase = np.arange(n + 1.0)
     piece = np.searchsorted(begun, phase, side="right") - 1
     first, slope = speeds[piece] * rate, slopes[piece]

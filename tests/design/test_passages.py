@@ -204,6 +204,7 @@ def test_bad_input() -> None:
         (lambda: schedule(DRIVE, 1.0, speed_rpm=[(0.5, 100.0)]), "speed_rpm must begin at 0 s"),
         (lambda: schedule(DRIVE, 1.0, speed_rpm=[1.0, 2.0]), "speed_rpm must be a number or pairs"),
         (lambda: schedule(DRIVE, 1e6, speed_rpm=1000.0), "seconds must leave at most 1000000 mesh periods"),
+        (lambda: run_up(DRIVE, 1.0, 1e300, 0.1), r"got 0.1, which are 2.33333e\+298"),
         (lambda: load_change(slow, [(0.0, 1.0), (0.5, float("nan"))], 1.0), "torque_nm"),
         (lambda: load_change(DRIVE, [(0.0, 1.0)], 1.0), "this drive has no speed"),
         (lambda: how_many_moments([]), "where must hold truth values, one at least"),
