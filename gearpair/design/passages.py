@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from gearpair._checks import check_array, check_count, check_number, check_truths, checked, shown
 from gearpair.design.loads import sampled_force_n
 from gearpair.drive import GearDrive
-from gearpair.motion.passages import passage
+from gearpair.motion.passages import error_and_rate, passage
 from gearpair.motion.steady import SteadyState, steady_state
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
@@ -262,7 +262,8 @@ def schedule(
 
     check_count("samples_per_period", samples_per_period, at_least=0)
     check_one_course(drive)
-    cycles = mesh_cycles(drive, seconds, speed_rpm, drive.pinion_torque_nm if torque_nm is None else torque_nm)
+    torque_nm = drive.pinion_torque_nm if torque_nm is None else torque_nm
+    cycles = mesh_cycles(drive, seconds, speed_rpm, torque_nm)
     unit = drive.unit_force_n
     mean_force = cycles.torque / (drive.pinion_base_radius_mm * 1e-3)
     if accelerates:
@@ -273,7 +274,10 @@ def schedule(
         meshing(torque).replace(mesh_frequency=frequency, mean_force=force)
         for torque, frequency, force in zip(cycles.torque.tolist(), frequencies.tolist(), forces.tolist(), strict=True)
     ]
-    x, v = _begun(start, oscillators[0])
+    before = float(_course("torque_nm", torque_nm)[1][0])
+    less = (before - float(cycles.torque[0])) / (drive.pinion_base_radius_mm * 1e-3) / unit
+    begun = meshing(before).replace(mesh_frequency=frequencies[0], mean_force=forces[0] + less)
+    x, v = _begun(start, begun, oscillators[0])
     run = passage(oscillators, x, v, samples_per_period=samples_per_period)
     mm_s = drive.half_backlash_m * drive.natural_frequency_rad_s * 1e3
     columns: dict[str, Any] = {
@@ -291,11 +295,20 @@ def schedule(
     return result.assign(_samples(drive, oscillators, run)) if samples_per_period else result
 
 
-def _begun(start: SteadyState | tuple[float, float] | None, osc: Oscillator) -> tuple[float, float]:
-    """X and X' that a schedule starts from; or a ValueError."""
-    if start is None or isinstance(start, SteadyState):
-        x, v = (start or steady_state(osc)).points[0].tolist()
+def _begun(
+    start: SteadyState | tuple[float, float] | None, before: Oscillator, first: Oscillator
+) -> tuple[float, float]:
+    """X and X' that a schedule starts from, its first mesh period being `first`; or a ValueError.
+
+    Not given, it comes from the steady motion of `before`, whose X + e and its rate go on.
+    """
+    if isinstance(start, SteadyState):
+        x, v = start.points[0].tolist()
         return x, v
+    if start is None:
+        x, v = steady_state(before).points[0].tolist()
+        (e, rate), (e_first, rate_first) = error_and_rate(before), error_and_rate(first)
+        return x + e - e_first, v + rate - rate_first
     pair = check_array("start", start)
     if pair.shape != (2,):
         raise ValueError(f"start must be a settled motion, or X and X', got {shown(start)}")

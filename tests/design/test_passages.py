@@ -149,6 +149,16 @@ def test_a_reversal_crosses_the_backlash() -> None:
     assert pressed[-5:].mean() == pytest.approx(DRIVE.mean_force_n, rel=0.02)
 
 
+def test_a_change_within_the_first_mesh_period_begins_from_the_motion_before() -> None:
+    """At 100 rpm a mesh period takes 21 ms: a change of 1 ms is over at its middle, from where its torque is taken."""
+    drive = DRIVE.at_speed(100.0)
+    run = load_change(drive, [(0.0, -20.0), (0.001, 120.0)], 0.2)
+    before = gp.steady_state(drive.oscillator().replace(mean_force=-20.0 / 120.0 * drive.oscillator().mean_force))
+    assert run.torque.values.tolist() == [120.0] * run.sizes["cycle"]
+    assert (float(run.x[0]), float(run.v[0])) == pytest.approx(before.points[0].tolist(), abs=1e-9)
+    assert float(run.x[0]) < -1.0 < 1.0 < float(run.x[-1]) and float(run.drive_impacts[0]) > 0.0
+
+
 def test_a_change_of_load_at_many_moments() -> None:
     """Each row is a change that begins so late; and where there is a choice of motions, the moment makes it."""
     drive = DRIVE.at_speed(3000.0)
