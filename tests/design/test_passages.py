@@ -7,7 +7,8 @@ import pytest
 
 import gearpair as gp
 from gearpair.design import how_many_moments, load_change, load_change_moments, run_up, schedule
-from gearpair.design.passages import inertia_force_n, mesh_cycles
+from gearpair.design.courses import mesh_cycles
+from gearpair.design.passages import inertia_force_n
 
 PAIR = gp.SpurPair(pinion_teeth=28, gear_teeth=57, module_mm=3.0, face_width_mm=25.0)
 DRIVE = gp.GearDrive.from_pair(
