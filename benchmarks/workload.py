@@ -19,7 +19,7 @@ MOTIONS = (1500, 6000)
 SPEEDS = (40, 160)
 PERIODS = (1000, 10_000)
 SHOCKS = (10, 40)
-BOXES = (100, 400)
+BOXES = (100, 1000)
 STARTS_TRIED = (1000, 10_000)
 HEARD = (1, 10)
 # Too small to change the motion, so that what they cost is what the harmonics themselves cost.

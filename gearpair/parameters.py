@@ -32,8 +32,8 @@ STANDS_FOR = {
 }
 LISTS = {"long_speeds": "mesh_frequency"}  # of values of a scalar
 STARTS = ("first_start", "second_start")
-SPEEDS = ("lowest_rpm", "highest_rpm")  # none: the chapter's choice
-SECONDS = ("ramp_seconds", "tip_in_seconds")
+SPEEDS = ("lowest_rpm", "highest_rpm")
+CHOSEN = (*SPEEDS, "ramp_seconds", "rig_step_rpm")  # none: the chapter's choice
 RANGES = (("lowest", "highest"), ("lower", "upper"), ("frequency_from", "frequency_to"), SPEEDS)
 AXES = ("n_values", "n_fine", "n_x", "n_v", "n_speeds")  # from one end to another
 PAIRS = (*AXES, "n_reached", "n_steps", "n_phases")  # of n_reached half as many dampings
@@ -142,8 +142,8 @@ def _check_alone(name: str, value: Any) -> None:
         _check_as(name, lambda: check_start(*value))
     elif name in ("start_x", "start_v", "coast_torque_nm"):
         check_number(name, value)
-    elif name in ("x_reach", "v_reach", "pinion_torque_nm", "weak_damping", "rig_step_rpm", *SECONDS) or (
-        name in SPEEDS and value is not None
+    elif name in ("x_reach", "v_reach", "pinion_torque_nm", "weak_damping", "tip_in_seconds") or (
+        name in CHOSEN and value is not None
     ):
         check_number(name, value, above=0.0)
     elif name in ("narrowest", "base_pitch_um", "profile_um", *ADDED):

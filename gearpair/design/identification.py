@@ -39,8 +39,8 @@ class IdentificationStatus(Outcome):
     )
     NO_FIT = (
         "no_fit",
-        "there are folds, but none at these speeds: check resonance_rpm of the drive against the rig, or widen "
-        "damping_ratios and errors_um",
+        "there are folds, but none were found at these speeds: check resonance_rpm of the drive against the rig, check "
+        "the phase of the error (free_phase looks for it, from three jumps), or widen damping_ratios and errors_um",
     )
     NO_FOLD = (
         "no_fold",
@@ -73,7 +73,9 @@ class Identification:
         Of the derivative of the speeds by what is sought, in logarithms and radians: the larger, the less the speeds
         tell both apart.
     late_rpm : ndarray of float, shape (n,)
-        How far a run at the rig's ramp goes on beyond each fold before it jumps; nan where no ramp was given.
+        How far a run at the rig's ramp goes on beyond each fold before it jumps, negative where it jumps before;
+        infinite where it has not jumped a fifth of the speed beyond, so that a rig would not see the jump. Nan where no
+        ramp was given, or where the model has no motion beside the fold that could be told from the one before.
     others : tuple of (float, float, float)
         Damping ratio, error and phase of other answers that fit as well.
     curves : tuple of ndarray of float, shape (m, 2)
@@ -105,7 +107,9 @@ class Identification:
     def __repr__(self) -> str:
         """One line: the answer with its intervals, or why there is none."""
         if self.status in (IdentificationStatus.NO_FIT, IdentificationStatus.NO_FOLD):
-            return f"Identification {self.status}: {self.status.remedy}"
+            seen = " and ".join(f"{each:.5g}" for each in self.measured_rpm)
+            told = f"the jumps were seen at {seen} rpm, the drive's resonance_rpm is {self.drive.resonance_rpm:.5g}"
+            return f"Identification {self.status}: {told}; {self.status.remedy}"
         (a, b), (c, d) = self.damping_interval, self.error_interval
         return (
             f"Identification {self.status}: damping ratio {self.damping_ratio:.5g} ({a:.4g} to {b:.4g}), "
@@ -145,8 +149,8 @@ def identify(
     speed_error_rpm : float
         Standard uncertainty of every speed; of a run in steps, the step over the root of 12. The intervals follow.
     ramp_rpm_per_s : float, optional
-        How fast the rig's speed rose and fell. Given, runs of that ramp tell how late it jumped (`late_rpm`), and a
-        warning if that is more than `speed_error_rpm`.
+        How fast the rig's speed rose and fell. Given, runs of that ramp tell how late, or early, it jumped
+        (`late_rpm`), and a warning if that is more than `speed_error_rpm`.
     damping_ratios, errors_um : tuple of float
         What is looked through for a start, above 0; the answer may lie beyond. Errors when not given: from a
         thirtieth to three times the static deflection under the largest torque.
@@ -163,7 +167,8 @@ def identify(
     A run up and one down at each of 120 pairs of damping and error show where the drive has two motions; where these
     ranges come nearest to the measured speeds, the folds are located by continuation, and then moved on to the speeds:
     Newton's method on the logarithms, by Gauss and Newton's where there are more speeds, with the exact shift of a
-    fold, see `gearpair.bifurcations.fold_shift`. An answer counts if a run meets its folds.
+    fold, see `gearpair.bifurcations.fold_shift`. An answer counts if a run meets its folds. Of the pairs six are taken
+    as starts; where none of them leads to an answer, the six next best, until one does.
 
     The intervals are linear in the logarithms, ``exp(+-1.96 s)``, from ``(J' J)^-1`` and `speed_error_rpm`, or the
     misfit of least squares where that is larger. What else the model leaves out is not in them. Jumps at which a motion
@@ -187,24 +192,37 @@ def identify(
     damping = _check_range("damping_ratios", damping_ratios)
     error = _default_errors(drive, seen) if errors_um is None else _check_range("errors_um", errors_um)
     rig = Rig(drive if drive.error_phase_rad is not None else drive.at_phase(0.0), tuple(seen), free_phase)
-    found: list[Trial] = []
-    jumped = False
-    for start in tqdm(
-        list(rig.starts(damping, error, progress=progress)), "starts", unit="start", disable=not progress
-    ):
-        folds = rig.folds_near(start)
-        if folds is None:
-            continue
-        jumped = True
-        trial = rig.solved(Trial(start, folds, rig.rpm(folds)))
-        if trial is not None and rig.met(trial) and not any(alike(trial, each) for each in found):
-            found.append(trial)
-    found = [each for each in found if rig.fits(each, speed_error)]
+    nearest, more = rig.starts(damping, error, progress=progress)
+    found, jumped = _solved_from(rig, nearest, speed_error, progress=progress)
+    if not found:
+        found, also = _solved_from(rig, more, speed_error, enough=1, progress=progress)
+        jumped = jumped or also
     if not found:
         return _nothing(rig, IdentificationStatus.NO_FIT if jumped else IdentificationStatus.NO_FOLD)
     best = min(map(rig.misfit, found))
     found = sorted((each for each in found if rig.misfit(each) <= best + speed_error), key=rig.from_drive)
     return _described(rig, found, speed_error, ramp_rpm_per_s)
+
+
+def _solved_from(
+    rig: Rig, starts: Sequence[Array], speed_error: float, *, enough: int | None = None, progress: bool
+) -> tuple[list[Trial], bool]:
+    """The answers to which starts lead, each once, no more than are `enough`; and whether there were folds at all."""
+    found: list[Trial] = []
+    jumped = False
+    for start in tqdm(starts, "starts", unit="start", disable=not progress):
+        folds = rig.folds_near(start)
+        if folds is None:
+            continue
+        jumped = True
+        trial = rig.solved(Trial(start, folds, rig.rpm(folds)))
+        if trial is None or not rig.fits(trial, speed_error) or any(alike(trial, each) for each in found):
+            continue
+        if rig.met(trial):
+            found.append(trial)
+        if len(found) == enough:
+            break
+    return found, jumped
 
 
 def _check_range(name: str, reach: tuple[float, float]) -> tuple[float, float]:
@@ -291,10 +309,13 @@ def _described(rig: Rig, found: list[Trial], speed_error: float, ramp: float | N
             lateness(rig.at(best.unknowns, seen.torque_nm), fold, seen.run, ramp)
             for seen, fold in zip(rig.seen, best.folds, strict=True)
         ])  # fmt: skip
-        if np.any(late > speed_error):
+        most = np.nanmax(np.abs(late), initial=0.0)
+        if most > speed_error:
+            told = f"up to {most:.3g} rpm off" if np.isfinite(most) else "not even a fifth of the speed beyond a fold"
+            remedy = "take late_rpm off the speeds, or ramp slower" if np.isfinite(most) else "ramp slower"
             warn(
-                f"a ramp of {ramp:g} rpm/s is too fast for steady folds: it jumps up to {late.max():.3g} rpm late, "
-                f"more than speed_error_rpm = {speed_error:g}; take late_rpm off the speeds, or ramp slower",
+                f"a ramp of {ramp:g} rpm/s is too fast for steady folds: it jumps {told}, "
+                f"more than speed_error_rpm = {speed_error:g}; {remedy}",
                 stacklevel=4,
             )
     return replace(

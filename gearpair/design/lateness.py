@@ -12,20 +12,24 @@ from gearpair.motion.steady import SteadyState, steady_state
 BEFORE = 0.003  # of the speed, from which a ramp begins at least
 LIVES = 10.0  # of what begins with the ramp, which has died out by then
 BEYOND = (0.005, 0.02, 0.06, 0.2)  # how far it is followed, the next where it has not jumped by then
+SAME = 1e-6  # of the force: one motion on both sides
 NUDGE = 1e-3  # of the speed, beside the fold, at which both motions are looked at
 
 
 def lateness(drive: GearDrive, fold: Bifurcation, run: str, ramp_rpm_per_s: float) -> float:
     """How far (rpm) a run at a ramp goes on beyond a fold before its mesh force is half-way to that of the jump.
 
-    Negative where it jumps before; infinite where it has not jumped a fifth of the speed beyond.
+    Negative where it jumps before; infinite where it has not jumped a fifth of the speed beyond. Nan where a motion
+    beside the fold has no bound, or where both have one force.
     """
     at, sense = fold.value * drive.resonance_rpm, 1.0 if run == "up" else -1.0
     before = _near(drive, fold, at * (1.0 - sense * NUDGE))
     after = _near(drive, fold, at * (1.0 + sense * NUDGE))
     if Status.ESCAPED in (before.status, after.status):
-        return np.inf
+        return np.nan
     factors = [impact_measures(each).load_factor for each in (before, after)]
+    if abs(factors[1] - factors[0]) < SAME * factors[0]:
+        return np.nan
     lives = LIVES / (max(drive.damping_ratio, 1e-3) * drive.natural_frequency_rad_s)
     start = at - sense * min(at * BEFORE + ramp_rpm_per_s * lives, 0.3 * at)
     settled = _near(drive, fold, start)

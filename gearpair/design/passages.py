@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearpair._checks import check_array, check_count, check_number, check_truths, checked, shown
+from gearpair.design.courses import Course, course_of, mesh_cycles
 from gearpair.design.loads import sampled_force_n
 from gearpair.drive import GearDrive
-from gearpair.motion.passages import passage
+from gearpair.motion.passages import error_and_rate, passage
 from gearpair.motion.steady import SteadyState, steady_state
 from gearpair.motion.trajectories import check_start
 from gearpair.oscillator import Oscillator
@@ -22,20 +23,9 @@ from gearpair.stiffness import StiffnessWave
 if TYPE_CHECKING:
     import xarray as xr
 
-Course = float | Sequence[tuple[float, float]]  # a number, or (seconds, number) in between which it runs straight
 Array = NDArray[np.float64]
-MOST_CYCLES = 10**6
 WITHIN = 12  # mesh periods in which the moments of a load change lie
 AFTERWARDS = 20  # mesh periods, the last of a passage
-
-
-class Cycles(NamedTuple):
-    """The mesh periods of a schedule; all of shape (n,) but `time` (n + 1,)."""
-
-    time: Array  # s, the start of each and the end of the last
-    speed: Array  # rpm of the pinion, the mean over each
-    torque: Array  # N m, at the middle of each
-    acceleration: Array  # rad/s^2 of the pinion, the mean over each
 
 
 @checked
@@ -166,7 +156,7 @@ def load_change_moments(
     k = np.arange(n_moments)
     begins = 1.0 + k % WITHIN + (k + 0.5) / n_moments  # the first mesh period has the torque before, all through
     period = 2.0 * np.pi / drive.mesh_frequency_rad_s
-    times, torques = _course("torque_nm", torque_nm)
+    times, torques = course_of("torque_nm", torque_nm)
     rows = []
     for late in (begins * period).tolist():
         course = [(0.0, torques[0]), *zip(late + times, torques, strict=True)]
@@ -262,7 +252,8 @@ def schedule(
 
     check_count("samples_per_period", samples_per_period, at_least=0)
     check_one_course(drive)
-    cycles = mesh_cycles(drive, seconds, speed_rpm, drive.pinion_torque_nm if torque_nm is None else torque_nm)
+    torque_nm = drive.pinion_torque_nm if torque_nm is None else torque_nm
+    cycles = mesh_cycles(drive, seconds, speed_rpm, torque_nm)
     unit = drive.unit_force_n
     mean_force = cycles.torque / (drive.pinion_base_radius_mm * 1e-3)
     if accelerates:
@@ -273,7 +264,10 @@ def schedule(
         meshing(torque).replace(mesh_frequency=frequency, mean_force=force)
         for torque, frequency, force in zip(cycles.torque.tolist(), frequencies.tolist(), forces.tolist(), strict=True)
     ]
-    x, v = _begun(start, oscillators[0])
+    before = float(course_of("torque_nm", torque_nm)[1][0])
+    less = (before - float(cycles.torque[0])) / (drive.pinion_base_radius_mm * 1e-3) / unit
+    begun = meshing(before).replace(mesh_frequency=frequencies[0], mean_force=forces[0] + less)
+    x, v = _begun(start, begun, oscillators[0])
     run = passage(oscillators, x, v, samples_per_period=samples_per_period)
     mm_s = drive.half_backlash_m * drive.natural_frequency_rad_s * 1e3
     columns: dict[str, Any] = {
@@ -291,11 +285,20 @@ def schedule(
     return result.assign(_samples(drive, oscillators, run)) if samples_per_period else result
 
 
-def _begun(start: SteadyState | tuple[float, float] | None, osc: Oscillator) -> tuple[float, float]:
-    """X and X' that a schedule starts from; or a ValueError."""
-    if start is None or isinstance(start, SteadyState):
-        x, v = (start or steady_state(osc)).points[0].tolist()
+def _begun(
+    start: SteadyState | tuple[float, float] | None, before: Oscillator, first: Oscillator
+) -> tuple[float, float]:
+    """X and X' that a schedule starts from, its first mesh period being `first`; or a ValueError.
+
+    Not given, it comes from the steady motion of `before`, whose X + e and its rate go on.
+    """
+    if isinstance(start, SteadyState):
+        x, v = start.points[0].tolist()
         return x, v
+    if start is None:
+        x, v = steady_state(before).points[0].tolist()
+        (e, rate), (e_first, rate_first) = error_and_rate(before), error_and_rate(first)
+        return x + e - e_first, v + rate - rate_first
     pair = check_array("start", start)
     if pair.shape != (2,):
         raise ValueError(f"start must be a settled motion, or X and X', got {shown(start)}")
@@ -346,50 +349,3 @@ def check_one_course(drive: GearDrive) -> None:
         )
     if any(each.amplitude for each in drive.shaft_orders):
         raise ValueError(f"drive must repeat with the mesh period, got shaft_orders = {drive.shaft_orders}")
-
-
-def mesh_cycles(drive: GearDrive, seconds: float, speed_rpm: Course, torque_nm: Course) -> Cycles:
-    """The mesh periods of a schedule, from 0 s to the first that ends at `seconds` or after.
-
-    Between its points the speed runs straight, so the phase is a parabola and the time of a phase its root.
-    """
-    seconds = check_number("seconds", seconds, above=0.0)
-    times, speeds = _course("speed_rpm", speed_rpm)
-    for i, speed in enumerate(speeds.tolist()):
-        check_number("speed_rpm" if len(speeds) == 1 else f"speed_rpm[{i}]", speed, above=0.0)
-    rate = drive.pinion_teeth / 60.0  # mesh periods a second at 1 rpm
-    begun = np.concatenate([[0.0], np.cumsum(np.diff(times) * 0.5 * (speeds[1:] + speeds[:-1]) * rate)])
-    slopes = np.append(np.diff(speeds) / np.diff(times), 0.0) * rate  # after the last point the speed stays
-    at = np.searchsorted(times, seconds, side="right") - 1
-    after = seconds - times[at]
-    whole = begun[at] + after * (speeds[at] * rate + 0.5 * slopes[at] * after)
-    n = int(np.ceil(round(whole, 9)))
-    if n > MOST_CYCLES:
-        raise ValueError(f"seconds must leave at most {MOST_CYCLES} mesh periods, got {seconds}, which are {n}")
-    phase = np.arange(n + 1.0)
-    piece = np.searchsorted(begun, phase, side="right") - 1
-    first, slope = speeds[piece] * rate, slopes[piece]
-    to_go = phase - begun[piece]
-    time = times[piece] + 2.0 * to_go / (first + np.sqrt(first**2 + 2.0 * slope * to_go))
-    now = np.interp(time, times, speeds)
-    return Cycles(
-        time,
-        1.0 / (rate * np.diff(time)),
-        np.interp(0.5 * (time[1:] + time[:-1]), *_course("torque_nm", torque_nm)),
-        np.diff(now) / np.diff(time) * 2.0 * np.pi / 60.0,
-    )
-
-
-def _course(name: str, given: Course) -> tuple[Array, Array]:
-    """Times and values of a course, or a ValueError that says what is wrong with it."""
-    array = check_array(name, given)
-    if array.ndim == 0:
-        return np.array([0.0]), np.array([check_number(name, given)])
-    if array.ndim != 2 or array.shape[1] != 2 or not len(array) or not np.all(np.isfinite(array)):
-        raise ValueError(f"{name} must be a number or pairs of seconds and a number, got {given!r}")
-    times = array[:, 0]
-    if times[0] != 0.0:
-        raise ValueError(f"{name} must begin at 0 s, got {times[0]}")
-    if not np.all(np.diff(times) > 0.0):
-        raise ValueError(f"{name} must have times that rise, each above the one before, got {times.tolist()}")
-    return times, array[:, 1]

@@ -33,6 +33,7 @@ Array = NDArray[np.float64]
 PHASE = "error_phase_rad"
 OF_RELIEF = {f"relief_{field.name}": field.name for field in fields(TipRelief)}
 KNOWN = (*OF_DRIVE, PHASE, *OF_RELIEF, *OF_PAIR)
+MOST_BOXES = 10**7
 AT_ONCE = 256  # boxes of a batch: some tens of megabytes
 # A motion of one box at one speed weighs little: chaos is watched for an eighth of what a chart watches it for.
 BUILT = replace(CHART, n_samples=1, n_watch=CHART.n_watch // 8, measures=True)
@@ -72,7 +73,7 @@ def population(
     speeds_rpm : array_like of float, shape (m,)
         Of the pinion, rising, at least two; each box is run up and down over them.
     n : int
-        Boxes.
+        Boxes, up to ten million.
     seed : int
         Of the scrambling of the Sobol points; the first boxes are the same whatever `n` is.
     confidence : float
@@ -124,7 +125,8 @@ def population(
     """
     import xarray as xr  # here, so that importing gearpair stays quick
 
-    speeds, n, seed = check_speeds(speeds_rpm), check_count("n", n), check_count("seed", seed, at_least=0)
+    speeds, seed = check_speeds(speeds_rpm), check_count("seed", seed, at_least=0)
+    n = int(check_number("n", check_count("n", n), at_most=MOST_BOXES))
     confidence = check_number("confidence", confidence, above=0.0, below=1.0)
     if drive.pinion_torque_nm == 0.0 and "pinion_torque_nm" not in spread:
         raise ValueError("drive must have a torque that factors are relative to, got pinion_torque_nm = 0.0")

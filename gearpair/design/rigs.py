@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any, NamedTuple
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 N_DAMPING, N_ERROR, N_PHASES = 10, 12, 8  # trials that look for a start
 MARGIN = 0.1  # of the speeds, that a search looks beyond the jumps
 FINEST, COARSEST = 0.002, 0.015  # between speeds of a search, as a share of them
-N_STARTS = 6  # of Newton's method, at most
+N_STARTS, N_MORE = 6, 6  # of Newton's method, at most: where ranges come nearest, and where these find nothing
 STEPS, LARGEST, HALVINGS = 40, 0.3, 8  # of Newton's method, in logarithms and radians
 CLOSE = 1e-11
 FITS = 1e-9  # relative to the speeds: a remainder that is rounding
@@ -88,8 +88,10 @@ class Rig:
         step = np.clip((high - low) / low / 6.0, FINEST, COARSEST) if high > low else COARSEST
         return np.geomspace(low * (1.0 - MARGIN), high * (1.0 + MARGIN), int(np.log(high / low + 0.25) / step) + 24)
 
-    def starts(self, damping: tuple[float, float], error: tuple[float, float], *, progress: bool) -> Iterator[Array]:
-        """Where the ranges with two motions come nearest to the jumps, the nearest first."""
+    def starts(
+        self, damping: tuple[float, float], error: tuple[float, float], *, progress: bool
+    ) -> tuple[list[Array], list[Array]]:
+        """Where the ranges with two motions come nearest to the jumps, and the next best points, the nearest first."""
         from scipy.ndimage import minimum_filter  # here, so that importing gearpair stays quick
 
         axes = [np.log(np.geomspace(*each, n)) for each, n in ((damping, N_DAMPING), (error, N_ERROR))]
@@ -101,9 +103,9 @@ class Rig:
             apart += self._apart(points, torque, progress=progress)
         shape = tuple(map(len, axes))
         around = minimum_filter(apart.reshape(shape), 3, mode=("nearest", "nearest", "wrap")[: len(shape)])
-        lowest = np.flatnonzero((apart == around.ravel()) & np.isfinite(apart))
-        for i in lowest[np.argsort(apart[lowest], kind="stable")][:N_STARTS].tolist():
-            yield points[i]
+        nearest = [i for i in np.argsort(apart, kind="stable").tolist() if np.isfinite(apart[i])]
+        lowest = [i for i in nearest if apart[i] == around.ravel()[i]][:N_STARTS]
+        return [points[i] for i in lowest], [points[i] for i in nearest if i not in lowest][:N_MORE]
 
     def _apart(self, points: list[Array], torque_nm: float, *, progress: bool) -> Array:
         """How far, relative to the speeds, the ends of the ranges with two motions are from the jumps at one torque."""

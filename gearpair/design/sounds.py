@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from gearpair._checks import check_class, check_count, check_number, checked, shown
+from gearpair._checks import check_array, check_class, check_count, check_number, checked, shown
 from gearpair._equality import equal_by_value
 from gearpair.design.loads import sampled_force_n
 from gearpair.drive import GearDrive
@@ -22,6 +22,11 @@ if TYPE_CHECKING:
 
 RATE = 44_100  # samples a second
 OVER = 4  # as many times finer is the force sampled, before what the rate cannot hold is filtered out
+TAPS = (
+    128 * OVER
+)  # of the filter before that: from 46 % of the rate on it falls, to less than a thousandth at half of it
+FASTEST = 192_000  # samples a second
+FEWEST = 16  # samples of a mesh period, of a passage
 FADE = 0.06  # seconds, at both ends
 LOUD = 4.0  # mean forces: what stands for full scale
 
@@ -44,6 +49,13 @@ class Sound:
     samples: NDArray[np.float64]
     rate: int
     full_scale_n: float
+
+    def __post_init__(self) -> None:
+        check_count("rate", self.rate)
+        check_number("full_scale_n", self.full_scale_n, above=0.0)
+        samples = check_array("samples", self.samples, ndim=1)
+        if not len(samples) or np.abs(samples).max() > 1.0:
+            raise ValueError("samples must be numbers from -1 to 1, one at least: full_scale_n is what 1 stands for")
 
     def __repr__(self) -> str:
         """One line."""
@@ -84,7 +96,7 @@ def sound(
         The force that stands for full scale: four times the drive's mean force when not given, or the largest change of
         this force where that is more.
     rate : int
-        Samples a second.
+        Samples a second, up to 192 000.
 
     Returns
     -------
@@ -94,10 +106,13 @@ def sound(
     Raises
     ------
     ValueError
-        Where the force does not fit into `full_scale_n`, or a passage has no samples or is too short.
+        Where the force does not fit into `full_scale_n`, a passage has fewer than 16 samples a mesh period, or it is
+        shorter than the two fades.
 
     Notes
     -----
+    Of a passage one hears what its samples hold, frequencies up to half of `samples_per_period` times that of the mesh.
+
     It is the tooth force as sound and not the noise of a gearbox: shafts, bearings and housing, which filter it, are
     not in the model.
 
@@ -112,14 +127,16 @@ def sound(
     (22050, True)
     """
     from scipy.interpolate import CubicSpline  # here, so that importing gearpair stays quick
-    from scipy.signal import resample_poly
+    from scipy.signal import firwin, resample_poly
 
-    rate = check_count("rate", rate, at_least=1000)
+    rate = int(check_number("rate", check_count("rate", rate, at_least=1000), at_most=FASTEST))
     if isinstance(motion, SteadyState):
         seconds = 2.0 if seconds is None else check_number("seconds", seconds, above=2.0 * FADE, at_most=60.0)
         time, force = _force_of(drive, motion, seconds, rate * OVER)
     else:
         time, force = _force_in(motion)
+        if time[-1] <= 2.0 * FADE:
+            raise ValueError(f"motion must last for more than {2.0 * FADE:g} s, got a passage of {time[-1]:.3g} s")
         seconds = float(time[-1]) if seconds is None else check_number("seconds", seconds, above=2.0 * FADE)
         if seconds > time[-1] * (1.0 + 1e-9):
             raise ValueError(f"seconds must be at most those of the passage, {time[-1]:.4g}, got {seconds}")
@@ -127,7 +144,8 @@ def sound(
     at = np.arange(n * OVER) / (rate * OVER)
     fine = CubicSpline(time, force)(np.minimum(at, time[-1]))
     fine -= fine.mean()
-    samples = resample_poly(fine, 1, OVER)[:n]
+    low_pass = firwin(TAPS + 1, 0.48 * rate, window=("kaiser", 8.0), fs=rate * OVER)
+    samples = resample_poly(fine, 1, OVER, window=low_pass)[:n]
     edge = 0.5 - 0.5 * np.cos(np.pi * np.arange(int(FADE * rate)) / int(FADE * rate))
     samples[: len(edge)] *= edge
     samples[-len(edge) :] *= edge[::-1]
@@ -185,4 +203,6 @@ def _force_in(run: xr.Dataset) -> tuple[NDArray[np.float64], NDArray[np.float64]
     """Time (s) and mesh force (N) of a passage."""
     if "sample_force" not in run:
         raise ValueError("motion must be a settled motion, or a passage that was made with samples_per_period")
+    if run.sizes["sample"] < FEWEST:
+        raise ValueError(f"motion must have at least {FEWEST} samples_per_period, got {run.sizes['sample']}")
     return run.sample_time.values.ravel(), run.sample_force.values.ravel()

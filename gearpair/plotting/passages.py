@@ -221,7 +221,7 @@ def short_time_levels(
     seconds = min(max(whole / WINDOWS, LEAST_PERIODS / mesh.min()), whole)
     window = hann(max(int(seconds * rate), 8), sym=False)
     transform = ShortTimeFFT(window, max(len(window) // 8, 1), rate, scale_to="magnitude")
-    found = np.abs(transform.stft_detrend(np.interp(even, sampled, force), "constant"))
+    found = np.abs(transform.stft_detrend(np.interp(even, sampled, force), "constant", padding="even"))
     times = transform.t(len(even))
     inside, shown = (times >= 0.0) & (times <= whole), transform.f <= (n_orders + 0.5) * mesh.max()
     found = found[shown][:, inside]

@@ -147,10 +147,43 @@ def test_one_speed_does_not_determine_both() -> None:
 def test_no_fold_and_no_fit_say_so() -> None:
     none = identify(rig(), 8600.0, 7300.0, damping_ratios=(0.4, 0.5))
     assert none.status == "no_fold" and np.isnan(none.damping_ratio) and none.curves == ()
-    assert repr(none).startswith("Identification no_fold: no damping ratio and error tried")
+    assert repr(none).startswith("Identification no_fold: the jumps were seen at 8600 and 7300 rpm, the drive's")
+    assert f"resonance_rpm is {rig().resonance_rpm:.5g}; no damping ratio and error tried" in repr(none)
     assert none == replace(none)
-    crossed = identify(rig(), 7345.0, 8598.0)  # up below down: no softening spring does that
-    assert crossed.status in ("no_fit", "no_fold")
+    narrow = identify(rig(), 9580.0, 9500.0)  # both close below the resonance, where folds lie far apart
+    assert narrow.status == "no_fit" and "none were found at these speeds" in repr(narrow)
+
+
+def mill(torque: float, damping: float, error: float) -> gp.GearDrive:
+    """A slow one: heavy rotors, so that it resonates at 64 rpm."""
+    return gp.GearDrive.from_pair(
+        gp.SpurPair(20, 80, module_mm=10.0, face_width_mm=100.0),
+        pinion_torque_nm=torque, backlash_um=300.0, transmission_error_um=[(1, error, 0.0)], damping_ratio=damping,
+        pinion_blank=gp.teeth.GearBlank(added_inertia_kg_m2=2e3),
+        gear_blank=gp.teeth.GearBlank(added_inertia_kg_m2=3.2e4),
+    )  # fmt: skip
+
+
+@pytest.mark.slow
+def test_jumps_of_two_resonances_are_found_from_more_starts() -> None:
+    """The jump up of one range of two motions and the jump down of another: the nearest starts lead nowhere."""
+    chart = speed_chart(mill(2000.0, 0.05, 15.0), np.linspace(7.0, 86.0, 81), n_starts=0).jump_speed
+    found = identify(mill(2000.0, 0.03, 10.0), float(chart.sel(run="up").max()), float(chart.sel(run="down").min()))
+    assert found.runs == ("up", "down") and found.measured_rpm == pytest.approx([79.54, 34.21], abs=0.01)
+    assert found.status == "found"
+    assert (found.damping_ratio, found.transmission_error_um) == pytest.approx((0.05, 15.0), rel=1e-6)
+
+
+@pytest.mark.slow
+def test_a_ramp_at_which_a_rig_would_see_no_jump_is_told() -> None:
+    """Through a fifth of the speed below the fold in a ninth of a second, which is two mesh periods."""
+    drive, seen = mill(5000.0, 0.05, 15.0), (54.112, 44.557)
+    with pytest.warns(UserWarning, match="it jumps not even a fifth of the speed beyond a fold"):
+        found = identify(drive, *seen, ramp_rpm_per_s=79.0)
+    assert found.late_rpm[1] == np.inf
+    assert run_up(drive, seen[1], 0.8 * seen[1], 0.2 * seen[1] / 79.0).sizes["cycle"] == 2
+    with pytest.warns(UserWarning, match=r"it jumps up to 11\.\d rpm off"):  # early, for it unloads the mesh
+        assert identify(drive, *seen, ramp_rpm_per_s=8.0).late_rpm[1] < -10.0
 
 
 @pytest.mark.slow

@@ -1,11 +1,14 @@
 """Run-up, load change and schedules of a drive, against formulas and the steady motions between which they lead."""
 
+import math
+
 import numpy as np
 import pytest
 
 import gearpair as gp
 from gearpair.design import how_many_moments, load_change, load_change_moments, run_up, schedule
-from gearpair.design.passages import inertia_force_n, mesh_cycles
+from gearpair.design.courses import mesh_cycles
+from gearpair.design.passages import inertia_force_n
 
 PAIR = gp.SpurPair(pinion_teeth=28, gear_teeth=57, module_mm=3.0, face_width_mm=25.0)
 DRIVE = gp.GearDrive.from_pair(
@@ -70,6 +73,69 @@ def test_a_fast_ramp_is_late() -> None:
     assert lost[0] - lost[2] > 100.0
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("ends", [(6200.0, 11_000.0), (11_000.0, 6200.0)])
+def test_steps_of_the_speed_are_a_smooth_ramp(ends: tuple[float, float]) -> None:
+    """Over the resonance in 50 ms: the speeds at which contact is first and last lost or made, to 0.1 rpm."""
+    seconds, per_period = 0.05, 800
+    run = run_up(DRIVE, *ends, seconds, accelerates=False, samples_per_period=per_period)
+    start = DRIVE.at_speed(float(run.speed[0])).oscillator()
+    fraction = np.arange(per_period) / per_period
+    error = np.array([start.replace(mesh_frequency=each / DRIVE.resonance_rpm).error(fraction * 2.0 * np.pi
+        * DRIVE.resonance_rpm / each) for each in run.speed.values])  # fmt: skip
+    x = (run.sample_dte.values / (DRIVE.half_backlash_m * 1e6) - error).ravel()
+    second = DRIVE.natural_frequency_rad_s
+    found = crossings(run.sample_time.values.ravel() * second, x)
+    first, rate = ends[0] / DRIVE.resonance_rpm, (ends[1] - ends[0]) / DRIVE.resonance_rpm / (seconds * second)
+    v = float(run.v[0]) + start.error_amplitude * (
+        start.mesh_frequency - first
+    )  # X' + e' goes on from the ramp's start
+    smooth = crossings(*smoothly(start, first, rate, float(run.x[0]), v, run.sizes["cycle"], per_period))
+    rpm = [(first + rate * each) * DRIVE.resonance_rpm for each in (found[[0, -1]], smooth[[0, -1]])]
+    assert rpm[0] == pytest.approx(rpm[1], abs=0.1)
+    assert abs(rpm[0][1] - rpm[0][0]) > 1500.0
+
+
+def crossings(tau: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """When samples of X cross 1, by straight lines."""
+    at = np.flatnonzero((x[1:] >= 1.0) != (x[:-1] >= 1.0))
+    return tau[at] + (1.0 - x[at]) / (x[at + 1] - x[at]) * (tau[at + 1] - tau[at])
+
+
+def smoothly(osc: gp.Oscillator, first: float, rate: float, x: float, v: float, n: int, per_period: int):
+    """Times and X of a motion while the mesh frequency is ``first + rate tau``, by Runge and Kutta's classical method.
+
+    The steps end where the stiffness switches, at phases of the mesh, so that k is one number in each.
+    """
+    edges, size = [*osc.stiffness.edges, 1.0], osc.error_amplitude
+    times, values = [], []
+
+    def pushed(tau: float, x: float, v: float, k: float) -> float:
+        omega, theta = first + rate * tau, (first + 0.5 * rate * tau) * tau
+        error = size * (omega**2 * math.sin(theta) - rate * math.cos(theta))  # -e''
+        return osc.mean_force + error - 2.0 * osc.damping_ratio * v - k * (x - min(max(x, -1.0), 1.0))
+
+    for cycle in range(n):
+        for k, begin, end in zip(osc.stiffness.levels, edges[:-1], edges[1:], strict=True):
+            turns = [2.0 * math.pi * (cycle + each) for each in (begin, end)]
+            tau, until = (2.0 * each / (first + math.sqrt(first**2 + 2.0 * rate * each)) for each in turns)
+            steps = math.ceil(per_period * (end - begin))
+            h = (until - tau) / steps
+            for _ in range(steps):
+                times.append(tau)
+                values.append(x)
+                a1 = pushed(tau, x, v, k)
+                v2 = v + 0.5 * h * a1
+                a2 = pushed(tau + 0.5 * h, x + 0.5 * h * v, v2, k)
+                v3 = v + 0.5 * h * a2
+                a3 = pushed(tau + 0.5 * h, x + 0.5 * h * v2, v3, k)
+                v4 = v + h * a3
+                a4 = pushed(tau + h, x + h * v3, v4, k)
+                x, v = x + h * (v + 2.0 * v2 + 2.0 * v3 + v4) / 6.0, v + h * (a1 + 2.0 * a2 + 2.0 * a3 + a4) / 6.0
+                tau += h
+    return np.array(times), np.array(values)
+
+
 def test_a_reversal_crosses_the_backlash() -> None:
     drive = DRIVE.at_speed(3000.0)
     run = load_change(drive, [(0.0, -20.0), (0.005, 120.0)], 0.1, samples_per_period=64)
@@ -82,6 +148,16 @@ def test_a_reversal_crosses_the_backlash() -> None:
     assert pressed.min() < 0.0 < pressed.max()
     assert pressed.max(axis=1)[-1] == pytest.approx(float(run.mesh_force[-1]), rel=2e-2)
     assert pressed[-5:].mean() == pytest.approx(DRIVE.mean_force_n, rel=0.02)
+
+
+def test_a_change_within_the_first_mesh_period_begins_from_the_motion_before() -> None:
+    """At 100 rpm a mesh period takes 21 ms: a change of 1 ms is over at its middle, from where its torque is taken."""
+    drive = DRIVE.at_speed(100.0)
+    run = load_change(drive, [(0.0, -20.0), (0.001, 120.0)], 0.2)
+    before = gp.steady_state(drive.oscillator().replace(mean_force=-20.0 / 120.0 * drive.oscillator().mean_force))
+    assert run.torque.values.tolist() == [120.0] * run.sizes["cycle"]
+    assert (float(run.x[0]), float(run.v[0])) == pytest.approx(before.points[0].tolist(), abs=1e-9)
+    assert float(run.x[0]) < -1.0 < 1.0 < float(run.x[-1]) and float(run.drive_impacts[0]) > 0.0
 
 
 def test_a_change_of_load_at_many_moments() -> None:
@@ -139,6 +215,7 @@ def test_bad_input() -> None:
         (lambda: schedule(DRIVE, 1.0, speed_rpm=[(0.5, 100.0)]), "speed_rpm must begin at 0 s"),
         (lambda: schedule(DRIVE, 1.0, speed_rpm=[1.0, 2.0]), "speed_rpm must be a number or pairs"),
         (lambda: schedule(DRIVE, 1e6, speed_rpm=1000.0), "seconds must leave at most 1000000 mesh periods"),
+        (lambda: run_up(DRIVE, 1.0, 1e300, 0.1), r"got 0.1, which are 2.33333e\+298"),
         (lambda: load_change(slow, [(0.0, 1.0), (0.5, float("nan"))], 1.0), "torque_nm"),
         (lambda: load_change(DRIVE, [(0.0, 1.0)], 1.0), "this drive has no speed"),
         (lambda: how_many_moments([]), "where must hold truth values, one at least"),

@@ -30,8 +30,8 @@ def series() -> xr.Dataset:
 
 def test_the_boxes_are_those_of_a_plain_loop(series: xr.Dataset) -> None:
     """Each drive built by hand, its runs carried up and down and measured one by one."""
-    kinds = set()
-    for i in range(0, 40, 5):
+    kinds, in_one_alone = set(), []
+    for i in (*range(0, 40, 5), 12, 28):  # the last two clatter, and at some speeds in one run alone
         backlash, error, damping, phase = series.value.values[i].tolist()
         box = DRIVE.replace(backlash_um=backlash, transmission_error_um=error, damping_ratio=damping).at_phase(phase)
         [(up, down)] = carried_runs([oscillators_at(box, SPEEDS)], None)
@@ -48,8 +48,9 @@ def test_the_boxes_are_those_of_a_plain_loop(series: xr.Dataset) -> None:
             assert bool(here.clatters) == (ImpactState.DOUBLE in states)
             assert bool(here.two_motions) == (not same_motion(*both))
             kinds.add((bool(here.parts), bool(here.clatters), bool(here.two_motions)))
-    assert {each[0] for each in kinds} == {each[2] for each in kinds} == {False, True}
-    assert bool(series.clatters.any()) and not bool(series.clatters.all())
+            in_one_alone += [ImpactState.DOUBLE in states and len(states) > 1]
+    assert all({each[k] for each in kinds} == {False, True} for k in range(3))
+    assert any(in_one_alone)
 
 
 def test_intervals_are_scipys(series: xr.Dataset) -> None:
@@ -170,6 +171,8 @@ def test_bad_spreads_get_a_sentence(spread, sentence) -> None:
 def test_other_bad_input_gets_a_sentence() -> None:
     with pytest.raises(ValueError, match="n must be a whole number of at least 1, got 0"):
         population(DRIVE, SPREAD, SPEEDS, n=0)
+    with pytest.raises(ValueError, match="n must be a finite number at most 1e[+]07, got 1000000000000.0"):
+        population(DRIVE, SPREAD, SPEEDS, n=10**12)
     with pytest.raises(ValueError, match="drive must have a torque"):
         population(DRIVE.replace(pinion_torque_nm=0.0), SPREAD, SPEEDS)
     with pytest.raises(ValueError, match="confidence must be"):

@@ -7,7 +7,7 @@ import pytest
 from scipy.io import wavfile
 
 import gearpair as gp
-from gearpair.design import run_up, sound, write_wav
+from gearpair.design import Sound, run_up, sound, write_wav
 
 PAIR = gp.SpurPair(pinion_teeth=28, gear_teeth=57, module_mm=3.0, face_width_mm=25.0)
 DRIVE = gp.GearDrive.from_pair(
@@ -36,6 +36,14 @@ def test_no_click_no_clipping_and_what_the_rate_cannot_hold_is_gone() -> None:
     slow = sound(DRIVE, STATE, 0.5, rate=8000)  # the second harmonic, 7560 Hz, would come back at 440 Hz
     lines = 2.0 * np.abs(np.fft.rfft(slow.samples)) / len(slow.samples)
     assert lines[220] < 1e-3 * lines.max()
+
+
+def test_a_line_a_little_above_half_the_rate_does_not_come_back() -> None:
+    """The second harmonic, 7560 Hz, of 14 000 samples a second would be heard at 6440 Hz."""
+    heard = sound(DRIVE, STATE, 1.0, rate=14_000).samples[1400:-1400]  # 0.8 s
+    lines = 2.0 * np.abs(np.fft.rfft(heard * np.hanning(len(heard)))) / len(heard)
+    assert int(np.argmax(lines)) == round(3780 * 0.8)
+    assert lines[round(6440 * 0.8)] < 1e-3 * lines.max()
 
 
 def test_two_motions_compare() -> None:
@@ -69,3 +77,15 @@ def test_bad_input() -> None:
         sound(DRIVE, STATE, 0.0)
     with pytest.raises(ValueError, match="seconds must be at most those of the passage"):
         sound(DRIVE, run_up(DRIVE, 6000.0, 9000.0, 0.5, samples_per_period=64), 5.0)
+    with pytest.raises(ValueError, match=r"motion must last for more than 0.12 s, got a passage of 0.05 s"):
+        sound(DRIVE, run_up(DRIVE, 6000.0, 9000.0, 0.05, samples_per_period=64))
+    with pytest.raises(ValueError, match="motion must have at least 16 samples_per_period, got 8"):
+        sound(DRIVE, run_up(DRIVE, 6000.0, 9000.0, 0.5, samples_per_period=8))
+    with pytest.raises(ValueError, match="rate must be a finite number at most 192000, got 1000000000.0"):
+        sound(DRIVE, STATE, rate=10**9)
+
+
+@pytest.mark.parametrize("samples", [[0.0, 2.0], [0.0, float("nan")], []])
+def test_a_sound_holds_what_a_file_can(samples: list[float]) -> None:
+    with pytest.raises(ValueError, match="samples must be"):
+        Sound(np.array(samples), 8000, 1.0)
