@@ -270,7 +270,7 @@ def test_the_speed_chart_takes_all_of_a_drives_file(tmp_path):
     chart = gp.design.speed_chart(drive, speeds, n_starts=0)
     told = gp.design.verdict(chart, gp.design.iso_dynamic_factor(drive, speeds, **file.iso_deviations))
     assert told.worst in text and told.quiet in text and told.reach in text
-    assert "'No phase had to be chosen" in text and "as it is" in text and "nan" not in text
+    assert "'No phase had to be chosen" in text and "as it is" in text and not re.search(r"\bnan\b", text)
 
 
 @pytest.mark.parametrize("name", CHAPTERS)
