@@ -84,8 +84,9 @@ def check_parameters(values: Mapping[str, Any], **stands_for: str) -> None:
     if "pinion_torque_nm" in values:
         backlash = SpurPair(**pair).normal_backlash_um(**_chosen(values, ("backlash_um", "backlash")))
         GearDrive.from_pair(SpurPair(**pair), backlash_um=backlash, **_chosen(values, DRIVE))
-    if isinstance(values.get("drive"), str):  # a drive's file; later in a chapter it is the drive
-        GearDrive.from_file(values["drive"])
+    path = values.get("drive")  # a drive's file; later in a chapter it is the drive
+    if isinstance(path, str) and GearDrive.from_file(path).pinion_torque_nm == 0.0:
+        raise ValueError(f"{path}: a chapter needs a pinion_torque_nm other than 0; gearpair drive takes an idle gear")
     for name, scalar in {**STANDS_FOR, **stands_for}.items():
         if name in values:
             _check_as(name, partial(osc.replace, **{scalar: values[name]}))

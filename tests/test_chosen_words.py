@@ -153,3 +153,26 @@ def test_a_boundary_is_called_fractal_by_the_number_that_the_table_shows(entropy
     mixed = [SimpleNamespace(entropy=0.2, boundary_entropy=value) for value in (0.4, entropy, 0.5)]
     planes = {"plane": shares, "swapped": shares, "weaker": shares, "less": "weaker damping", "entropies": mixed}
     assert glued("impacts", "cell30", **planes)["above"] == above
+
+
+@pytest.mark.parametrize(
+    ("factors", "said", "damping"),
+    [
+        (
+            [[4.0, 6.0], [3.0, 7.0], [2.0, 6.0]],
+            "done by the backlash: it takes the largest factor of the runs from 5.00 to",
+            "6.00",
+        ),
+        ([[4.0, 6.0], [5.0, 5.0], [2.0, 6.0]], "nothing that was tried makes the largest factor", "6.00"),
+        ([[4.0, 6.0], [np.nan, 5.5]], "nothing that was tried makes", ""),  # a drive without damping
+    ],
+)
+def test_what_helps_is_said_as_it_came_out(factors, said, damping):
+    names = ["pinion_torque_nm", "backlash_um", "damping_ratio"][: len(factors)]
+    found = xr.Dataset(
+        {"dynamic_factor": (("change", "end"), factors), "base_dynamic_factor": 5.0},
+        {"change": names, "end": ["low", "high"]},
+    )
+    design = SimpleNamespace(sensitivity=lambda *_: found)
+    texts = glued("speed_chart", "changes-told", design=design, plotting=gp.plotting, drive=None, speeds=np.arange(4))
+    assert said in texts["most"] and damping in texts["damped"] and bool(damping) == bool(texts["damped"])

@@ -9,11 +9,13 @@ import sys
 from types import SimpleNamespace
 
 import nbformat
+import numpy as np
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 from papermill import inspect_notebook
 
 import gearpair as gp
+from gearpair.drive_file import read_drive_file
 from gearpair.parameters import BASELINE
 from gearpair.study.book import Book
 from gearpair.study.errors import StudyError
@@ -250,6 +252,25 @@ def test_a_chapter_takes_a_drive_from_its_file(tmp_path):
     execute(chapter, tmp_path / "out.ipynb", values, progress=False)
     text = stored_text(tmp_path / "out.ipynb")
     assert "'45'" in text and "120" not in re.findall(r"'(\d+)'", text)
+
+
+@pytest.mark.slow
+def test_the_speed_chart_takes_all_of_a_drives_file(tmp_path):
+    """A pair that its gear drives, with relieved tips, a measured error, a grade and speeds below all resonances."""
+    (tmp_path / "pair.yml").write_text(
+        "pinion_teeth: 16\ngear_teeth: 24\nmodule_mm: 4.5\nface_width_mm: 20\npinion_shift: 0.8532\n"
+        "gear_shift: -0.5\nbacklash_um: 150\niso_grade: 5\ntransmission_error_um: [[1, 3.0, 0.4]]\n"
+        "pinion_torque_nm: -302\nlowest_rpm: 500\nhighest_rpm: 4000\npinion_relief_um: 8\nrelief_length: 0.3\n"
+    )
+    chapter, file = BOOK.chapter("speed_chart"), read_drive_file(tmp_path / "pair.yml")
+    values = chapter.parse([("drive", str(file.path)), ("n_speeds", "9"), ("n_starts", "0")])
+    execute(chapter, tmp_path / "out.ipynb", values, progress=False)
+    text = stored_text(tmp_path / "out.ipynb")
+    speeds, drive = np.linspace(500.0, 4000.0, 9), file.made(gp.GearDrive)
+    chart = gp.design.speed_chart(drive, speeds, n_starts=0)
+    told = gp.design.verdict(chart, gp.design.iso_dynamic_factor(drive, speeds, **file.iso_deviations))
+    assert told.worst in text and told.quiet in text and told.reach in text
+    assert "'No phase had to be chosen" in text and "as it is" in text and not re.search(r"\bnan\b", text)
 
 
 @pytest.mark.parametrize("name", CHAPTERS)

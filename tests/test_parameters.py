@@ -105,3 +105,13 @@ def test_a_name_that_papermill_put_in_must_be_declared(between, later):
         check_parameters({"In": ["", DECLARING, *between, injected, *later]})
     check_parameters({"In": ["", DECLARING, injected.replace("ration", "ratio"), "x = 1"]})
     check_parameters({"In": ["", DECLARING, "damping_ration = 0.05"]})  # typed by hand, no business of ours
+
+
+def test_a_chapter_needs_a_torque_also_of_a_file(tmp_path):
+    """A dynamic factor is a factor of the load; of either sign it has one."""
+    teeth = "pinion_teeth: 28\ngear_teeth: 57\nmodule_mm: 3\nface_width_mm: 25\nbacklash_um: 100\n"
+    for torque in (0, -120):
+        (tmp_path / f"{torque}.yml").write_text(f"{teeth}transmission_error_um: 4\npinion_torque_nm: {torque}\n")
+    check_parameters({"drive": str(tmp_path / "-120.yml")})
+    with pytest.raises(ValueError, match=r"0\.yml: a chapter needs a pinion_torque_nm other than 0; gearpair drive"):
+        check_parameters({"drive": str(tmp_path / "0.yml")})

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair.design import measure_motion, speed_chart
+from gearpair.design import measure_motion, speed_chart, verdict
 from gearpair.teeth import TipRelief, error_harmonics, loaded_mesh, tip_relief
 
 PAIR = gp.SpurPair(pinion_teeth=28, gear_teeth=57, module_mm=3.0, face_width_mm=25.0)
@@ -125,6 +125,8 @@ def test_one_error_for_both_flanks_is_marked(sign):
     double = (chart.impact_state == "double").values
     assert double.any() and not plain.both_flanks.any() and (plain.impact_state == "double").any()
     assert np.array_equal(chart.both_flanks.values, double)
+    told = [str(verdict(each)) for each in (chart, plain)]
+    assert ["Where both flanks are struck, the error of the relief is" in each for each in told] == [True, False]
     assert not speed_chart(DRIVE, 0.1 * speeds, n_starts=0, locate_jumps=False).both_flanks.any()
 
 

@@ -94,7 +94,8 @@ def verdict(
         phase=_phase(chart),
         quiet=_quiet(chart, iso, together),
         worst=_worst(chart, iso),
-        reach=f"The chart begins at {speeds[0]:.0f} and ends at {speeds[-1]:.0f} rpm; beyond, nothing was computed.",
+        reach=f"The chart has {len(speeds)} speeds from {speeds[0]:.0f} to {speeds[-1]:.0f} rpm; "
+        "between and beyond them nothing was computed.",
     )
 
 
@@ -142,9 +143,11 @@ def _worst(chart: xr.Dataset, iso: IsoDynamicFactor | None) -> str:
     force = largest[top] * abs(chart.attrs["mean_force_n"]) / 1000
     apart = float(chart.time_apart_high.max())
     parted = f"apart for up to {apart:.0%} of the time" if apart > 0.0 else "never apart"
+    served = " Where both flanks are struck, the error of the relief is that of the flank that carries, for both."
     return (
         f"The worst of the range is a dynamic factor of {largest[top]:.1f} at {chart.speed.values[top]:.0f} rpm"
         f"{compared}; the mesh then carries up to {three_digits(force)} kN. The teeth are {parted}."
+        f"{served if chart.both_flanks.any() else ''}"
     )
 
 

@@ -42,9 +42,9 @@ def tip_relief(mesh: MeshStiffness, pinion_um: float, gear_um: float, length: fl
     >>> round(float(relief[0]), 6), round(float(relief[-1]), 6), float(relief.min())
     (10.0, 20.0, 0.0)
     """
-    check_number("pinion_um", pinion_um, at_least=0.0)
-    check_number("gear_um", gear_um, at_least=0.0)
-    check_number("length", length, above=0.0, at_most=mesh.contact_ratio)
+    pinion_um = check_number("pinion_um", pinion_um, at_least=0.0)
+    gear_um = check_number("gear_um", gear_um, at_least=0.0)
+    length = check_number("length", length, above=0.0, at_most=mesh.contact_ratio)
     start = np.clip(1.0 - mesh.path / length, 0.0, None)
     end = np.clip(1.0 - (mesh.contact_ratio - mesh.path) / length, 0.0, None)
     return np.asarray(gear_um * start + pinion_um * end)

@@ -6,9 +6,13 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 
 import gearpair as gp
-from gearpair.design import sensitivity, speed_chart, speed_range_table, speeds_to_avoid
+from gearpair.design import sensitivity, speed_chart, speed_range_table, speeds_to_avoid, verdict
+from gearpair.design.found import LOSSES
+from gearpair.teeth import TipRelief, tip_relief
 
 PAIR = gp.SpurPair(pinion_teeth=28, gear_teeth=57, module_mm=3.0, face_width_mm=25.0)
 DATA = dict(pinion_torque_nm=120.0, backlash_um=100.0, transmission_error_um=4.0, damping_ratio=0.05)
@@ -72,6 +76,34 @@ def test_the_verdict_is_never_better_where_the_phase_is_unknown(chart, known):
 
 
 @pytest.mark.slow
+@settings(max_examples=8, deadline=None, derandomize=True)
+@given(
+    st.tuples(st.integers(10, 40), st.integers(40, 90)),
+    st.floats(-1.0, 1.0).filter(lambda share: abs(share) > 0.05),
+    st.floats(0.1, 1.2),
+    st.floats(0.03, 0.1),
+    st.integers(0, 7),
+)
+@example((10, 80), 0.5, 1.2, 0.05, 0)  # undercut
+@example((38, 40), -1.0, 0.9, 0.04, 4)  # driven back
+def test_no_pair_gets_better_by_not_knowing_the_phase(teeth, load, error, damping, phase):
+    """By any part of the verdict: factors at every speed, where the teeth part, and how; either sign of the torque."""
+    drawn = dict(pinion_torque_nm=200.0 * load, backlash_um=100.0, transmission_error_um=0.0, damping_ratio=damping)
+    drive = gp.GearDrive.from_pair(gp.SpurPair(*teeth), **drawn)
+    deflection = abs(drive.mean_force_n) / drive.mean_stiffness_n_per_um
+    drive = drive.replace(transmission_error_um=error * deflection)
+    speeds = np.linspace(0.3, 1.3, 7) * drive.resonance_rpm
+    unknown, known = (speed_chart(each, speeds, n_starts=1) for each in (drive, drive.at_phase(PHASES[phase])))
+    unbounded = np.isnan(known.factor_high)
+    assert np.all((unknown.factor_high >= known.factor_high) | unbounded)
+    ways = ["", *LOSSES]
+    assert all(ways.index(a) >= ways.index(b) for a, b in zip(unknown.loss.values, known.loss.values, strict=True))
+    inside = [[low <= rpm <= high for rpm in speeds] for low, high in verdict(unknown).together]
+    quiet = np.any([*inside, np.zeros(len(speeds), bool)], axis=0)
+    assert np.all(known.loss.values[quiet] == "")
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("phase", [0.3, 1.9, 2.9, 4.4, 5.6])
 @pytest.mark.parametrize("load", [60.0, 240.0])
 def test_no_phase_between_those_taken_is_much_worse(phase, load):
@@ -122,9 +154,12 @@ def test_the_worst_motion_is_that_of_the_largest_tooth_force_or_else_mesh_force(
         assert np.all(of[name].sel(run="worst") >= of[name].max("run"))
 
 
-@pytest.mark.parametrize("given", [np.int64(4), np.float32(4.0), Fraction(4), Decimal(4), 4, np.array(4.0)])
-def test_any_real_number_is_an_amplitude(given):
-    assert gp.GearDrive.from_pair(PAIR, **(DATA | {"transmission_error_um": given})) == DRIVE
+@pytest.mark.parametrize("number", [np.int64(4), np.float32(4.0), Fraction(4), Decimal(4), 4, np.array(4.0)])
+def test_any_real_number_is_an_amplitude(number):
+    assert gp.GearDrive.from_pair(PAIR, **(DATA | {"transmission_error_um": number})) == DRIVE
+    relieved = [DRIVE.replace(relief=TipRelief(each, 0.0, Fraction(1, 3))) for each in (number, 4.0)]
+    assert relieved[0] == relieved[1]
+    assert np.array_equal(*(tip_relief(DRIVE.mesh, each, each, 0.25) for each in (number, 4.0)))
 
 
 def test_a_drive_without_torque_floats_without_a_blow_or_a_warning():

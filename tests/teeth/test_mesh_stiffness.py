@@ -197,7 +197,7 @@ def test_clamping_the_bores_puts_their_twist_in_series(pair: SpurPair) -> None:
     ("bore", "free", "clamped"), [(0.0, 22.93, None), (0.1, 19.33, 4.4), (0.3, 20.89, 15.19), (0.6, 24.18, 22.57)]
 )
 def test_mean_stiffness_over_the_bore(bore: float, free: float, clamped: float | None) -> None:
-    """With the twist a small bore rules the mesh; without it the mean is within a fifth of ISO's 19.9 for any bore."""
+    """With the twist a small bore rules the mesh; without it the mean is within a quarter of ISO's 19.9."""
     pair = SpurPair(bore_ratio=bore)
     assert per_width(pair, "ring") == pytest.approx(free, abs=0.01)
     if clamped is None:

@@ -77,7 +77,7 @@ gearpair.define("chart/verdict", ["chart/data", "chart/numbers"], function (data
       phaseSentence(chart),
       quietSentence(chart, iso, together),
       worstSentence(chart, iso),
-      `The chart begins at ${fixed(speeds[0], 0)} and ends at ${fixed(speeds.at(-1), 0)} rpm; beyond, nothing was computed.`,
+      `The chart has ${speeds.length} speeds from ${fixed(speeds[0], 0)} to ${fixed(speeds.at(-1), 0)} rpm; between and beyond them nothing was computed.`,
     ];
     return { avoid, together, rule, sentences: sentences.filter(Boolean) };
   }
