@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gearpair as gp
-from gearpair.design import sensitivity, speed_chart, speed_range_table, speeds_to_avoid
+from gearpair.design import sensitivity, speed_chart, speed_range_table, speeds_to_avoid, verdict
 
 PAIR = gp.SpurPair(pinion_teeth=28, gear_teeth=57, module_mm=3.0, face_width_mm=25.0)
 DATA = dict(pinion_torque_nm=120.0, backlash_um=100.0, transmission_error_um=4.0, damping_ratio=0.05)
@@ -36,6 +36,19 @@ def test_an_amplitude_alone_has_no_phase_and_harmonics_have():
     assert told.error_phase_rad == 0.5 and not told.phase_is_unknown
     assert not told.replace(transmission_error_um=2.0).phase_is_unknown
     assert not DRIVE.replace(transmission_error_um=0.0).phase_is_unknown  # there is nothing whose phase it were
+
+
+@pytest.mark.parametrize(
+    ("error", "told"),
+    [
+        (4.0, "of those that were tried 180° is the worst"),
+        ([(1, 4.0, 0.5)], "No phase had to be chosen: that of the error is known."),
+        (0.0, "No phase had to be chosen: there is no transmission error."),
+    ],
+)
+def test_a_verdict_tells_an_unknown_phase_from_a_known_one_and_from_no_error(error, told):
+    few = speed_chart(DRIVE.replace(transmission_error_um=error), [3000.0, 3100.0], n_phases=2, **RUNS_ALONE)
+    assert told in verdict(few).phase
 
 
 def test_an_error_moved_along_the_mesh_period_keeps_its_shape():
