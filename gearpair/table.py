@@ -4,6 +4,8 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape, unescape
+from itertools import zip_longest
+from textwrap import wrap
 from typing import Any
 
 from gearpair._checks import shown
@@ -58,16 +60,47 @@ class Table:
         ) or (False,) * len(self.columns)
 
     def __repr__(self) -> str:
-        lines = [self.columns, *self.rows]
-        widths = [max(map(len, cells)) for cells in zip(*lines, strict=True)]
+        return self.text()
+
+    def text(self, widest: int | None = None) -> str:
+        """The table as aligned text.
+
+        Parameters
+        ----------
+        widest : int, optional
+            Cells of more characters go on in further lines, as do headings wider than their column.
+
+        Examples
+        --------
+        >>> print(Table(["rpm", "what they do"], [["900", "part or stay"], ["950", "part"]]).text(widest=9))
+        rpm  what
+             they do
+        ------------
+        900  part or
+             stay
+        950  part
+        """
+        if widest is None:
+            folded = [[[cell] for cell in line] for line in (self.columns, *self.rows)]
+        else:
+            rows = [[wrap(cell, widest) or [""] for cell in row] for row in self.rows]
+            needed = [[piece for cell in column for piece in cell] for column in zip(*rows, strict=True)]
+            head = [
+                wrap(name, max(map(len, [*pieces, *name.split()])))
+                for name, pieces in zip(self.columns, needed or [[]] * len(self.columns), strict=True)
+            ]
+            folded = [head, *rows]
+        widths = [max(len(piece) for pieces in cells for piece in pieces) for cells in zip(*folded, strict=True)]
         texts = [
             "  ".join(
-                cell.rjust(width) if right else cell.ljust(width)
-                for cell, width, right in zip(line, widths, self.right, strict=True)
+                piece.rjust(width) if right else piece.ljust(width)
+                for piece, width, right in zip(pieces, widths, self.right, strict=True)
             ).rstrip()
-            for line in lines
+            for line in folded
+            for pieces in zip_longest(*line, fillvalue="")
         ]
-        return "\n".join([texts[0], "-" * max(map(len, texts)), *texts[1:]])
+        below = max(map(len, folded[0]))
+        return "\n".join([*texts[:below], "-" * max(map(len, texts)), *texts[below:]])
 
     def _repr_html_(self) -> str:
         def line(tag: str, cells: Sequence[str]) -> str:

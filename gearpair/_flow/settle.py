@@ -103,13 +103,16 @@ def follow(
 
 @kernel
 def floats(cells: Cells, x: float, v: float, work: Scratch) -> bool:
-    """Whether a motion repeats within the backlash, as only without a mean force: one of a family, shifted at will."""
+    """Whether a motion repeats within the backlash, as only without a mean force: one of a family, shifted at will.
+
+    The family ends where a motion grazes a flank, and those that strike it come to rest there.
+    """
     if cells.flight_damping == 0.0 and cells.damping_ratio == 0.0:  # no drift would ever have died
         return False
     begin_reach(work.reach, x)
     status, x1, v1 = walk(cells, x, v, 1, work.series, None, work.reach)
     repeats = status == OK and distance(x1, v1, x, v) <= RETURNED
-    return repeats and work.reach[LOWEST] > -1.0 and work.reach[HIGHEST] < 1.0
+    return repeats and work.reach[LOWEST] > -1.0 - RETURNED and work.reach[HIGHEST] < 1.0 + RETURNED
 
 
 @kernel
@@ -205,6 +208,10 @@ def settle(
             course = judge(cells, course, limits, work, out, i)
     out.lasted[i] = int(work.way[0])
     out.final[i, 0], out.final[i, 1] = limit_of(course, work)
+    if captured(course) and cells.force == 0.0 and floats(cells, out.final[i, 0], out.final[i, 1], work):
+        # Over a cycle the forces on the teeth have the mean 0: none strikes one flank alone.
+        course = Course(OK, out.final[i, 0], out.final[i, 1], -1, Orbit(0, course.x, course.v, 0))
+        out.status[i] = FLOATING
     if captured(course):
         if 0 <= course.held < len(work.known.neighbourhoods):
             out.attractor[i] = int(work.neighbourhoods[course.held, OWNER])

@@ -117,7 +117,9 @@ def _phase(chart: xr.Dataset) -> str:
             "No drawing gives the phase of the error against the stiffness wave; of those that were tried "
             f"{worst:.0f}° is the worst, and the verdict holds for all."
         )
-    return "No phase had to be chosen: that of the error is given, or there is no error."
+    if chart.attrs["error_phase"] == "none":
+        return "No phase had to be chosen: there is no transmission error."
+    return "No phase had to be chosen: that of the error is known."
 
 
 def _quiet(chart: xr.Dataset, iso: IsoDynamicFactor | None, together: tuple[tuple[float, float], ...]) -> str:

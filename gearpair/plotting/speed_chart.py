@@ -135,6 +135,7 @@ def _mark_service(ax: Axes, service_rpm: Sequence[float]) -> None:
     low, high = check_reach("service_rpm", service_rpm)
     ax.axvspan(low, high, color=SERVICE, alpha=0.13, linewidth=0, zorder=-1)
     looks: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "va": "bottom", "fontsize": 8}
+    looks["bbox"] = {"facecolor": ax.get_facecolor(), "edgecolor": "none", "alpha": 0.8, "pad": 1.0}
     note(ax, "in service", (max(low, ax.get_xlim()[0]), 0.0), (4, 3), color=legible(ax, SERVICE), **looks)
 
 

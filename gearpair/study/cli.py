@@ -124,7 +124,7 @@ def _book(context: click.Context) -> Book:
 @click.option("--example", is_flag=True, help="Print a file with a comment to each line, and nothing else.")
 @click.option("--html", type=PATH, metavar="OUT.html", help="Write a report: one page that needs nothing else.")
 @click.option("--csv", type=PATH, metavar="OUT.csv", help="Write the numbers: one row a torque, run and speed.")
-@click.option("--xlsx", type=PATH, metavar="OUT.xlsx", help="Write them as a workbook; takes openpyxl.")
+@click.option("--xlsx", type=PATH, metavar="OUT.xlsx", help="Write them as a workbook.")
 @click.option("--netcdf", type=PATH, metavar="OUT.nc", help="Write them as netCDF, with units.")
 @click.option("--quiet", is_flag=True, help="No progress on stderr.")
 def drive(file: Path | None, example: bool, quiet: bool, **outputs: Path | None) -> None:

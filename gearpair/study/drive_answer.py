@@ -73,9 +73,8 @@ class Answer:
     def __str__(self) -> str:
         parts = [self.title]
         for each in self.loaded:
-            parts.append(
-                f"{each.drive.pinion_torque_nm:g} N m\n{each.verdict}\n\n{speed_range_table(each.verdict.avoid)}"
-            )
+            table = speed_range_table(each.verdict.avoid).text(widest=26)
+            parts.append(f"{each.drive.pinion_torque_nm:g} N m\n{each.verdict}\n\n{table}")
         if self.idle_sentence:
             parts.append(self.idle_sentence)
         parts += [f"Taken, where the file leaves a choice: {note}." for note in self.file.notes]

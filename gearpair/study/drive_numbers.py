@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gearpair.quantities import attributes
 from gearpair.study.drive_answer import Answer
-from gearpair.study.errors import StudyError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -67,9 +65,3 @@ WRITERS: dict[str, tuple[str, Callable[[Answer, Path], None]]] = {
     "xlsx": (".xlsx", _write_xlsx),
     "netcdf": (".nc", _write_netcdf),
 }
-
-
-def need_openpyxl() -> None:
-    """Raise a StudyError where no workbook can be written."""
-    if find_spec("openpyxl") is None:
-        raise StudyError("a workbook takes openpyxl, which is not installed: pip install openpyxl, or take --csv")

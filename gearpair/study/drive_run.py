@@ -8,7 +8,7 @@ from pathlib import Path
 from gearpair.drive_file import example
 from gearpair.study.claims import claimed
 from gearpair.study.drive_answer import Answer, answer
-from gearpair.study.drive_numbers import WRITERS, need_openpyxl
+from gearpair.study.drive_numbers import WRITERS
 from gearpair.study.errors import StudyError
 
 Writer = Callable[[Answer, Path], None]
@@ -41,8 +41,6 @@ def run_drive(file: Path, outputs: Mapping[str, Path], *, progress: bool) -> str
         _check_output(file, path, writers[kind][0])
     if len({path.absolute() for path in outputs.values()}) < len(outputs):
         raise StudyError("two outputs have one name")
-    if "xlsx" in outputs:
-        need_openpyxl()
     with ExitStack() as stack:
         partial = {kind: stack.enter_context(claimed(path)) / path.name for kind, path in outputs.items()}
         found = answer(file, progress=progress)

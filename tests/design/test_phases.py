@@ -42,6 +42,19 @@ def test_an_amplitude_alone_has_no_phase_and_harmonics_have():
     assert not DRIVE.replace(transmission_error_um=0.0).phase_is_unknown  # there is nothing whose phase it were
 
 
+@pytest.mark.parametrize(
+    ("error", "told"),
+    [
+        (4.0, "of those that were tried 180° is the worst"),
+        ([(1, 4.0, 0.5)], "No phase had to be chosen: that of the error is known."),
+        (0.0, "No phase had to be chosen: there is no transmission error."),
+    ],
+)
+def test_a_verdict_tells_an_unknown_phase_from_a_known_one_and_from_no_error(error, told):
+    few = speed_chart(DRIVE.replace(transmission_error_um=error), [3000.0, 3100.0], n_phases=2, **RUNS_ALONE)
+    assert told in verdict(few).phase
+
+
 def test_an_error_moved_along_the_mesh_period_keeps_its_shape():
     told = DRIVE.replace(transmission_error_um=[(1, 4.0, 0.5), (3, 1.0, 0.25)]).at_speed(3000.0)
     here, moved = told.oscillator(), told.at_phase(1.7).oscillator()

@@ -83,7 +83,7 @@ gearpair.define("chart/verdict", ["chart/data", "chart/numbers"], function (data
   }
 
   function phaseSentence({ phases, chosen, unknown }) {
-    if (!unknown) return "No phase had to be chosen: that of the error is given, or there is no error.";
+    if (!unknown) return "No phase had to be chosen: there is no transmission error.";
     return (
       "No drawing gives the phase of the error against the stiffness wave; of those that were tried " +
       `${degrees(phases[chosen])} is the worst, and the verdict holds for all.`
