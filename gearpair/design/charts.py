@@ -72,8 +72,8 @@ def speed_chart(
         the worst phase, and ``time_apart_high`` and ``impact_velocity_high``; ``linear_factor`` and ``linear_rms``
         (um) of `linear_response` at the phase of the runs; ``mesh_frequency`` (dimensionless).
 
-        The attribute ``run_phase_rad`` is the phase of the runs, ``error_phase`` is ``"known"``,
-        ``"unknown"``, or ``"none"`` where there is no error.
+        The attribute ``run_phase_rad`` is the phase of the runs, ``n_phases`` how many were tried; ``error_phase`` is
+        ``"known"``, ``"unknown"``, or ``"none"`` where there is no error.
 
     Notes
     -----
@@ -109,7 +109,7 @@ def speed_chart(
     chosen = worst_of([[load["mesh_force"] for each in row for load in each.loads] for row in seen])
     jumps = find_jumps(*runs[chosen]) if locate_jumps else []
     return _dataset(drives, speeds, ranges[chosen], seen, chosen, n_starts, jumps).assign_attrs(
-        drive=repr(drive), mean_force_n=drive.mean_force_n, error_phase=_error_phase(drive)
+        drive=repr(drive), mean_force_n=drive.mean_force_n, error_phase=_error_phase(drive), n_phases=len(drives)
     )
 
 

@@ -111,12 +111,13 @@ def _service(service: tuple[float, float], edges: list[float], avoid: tuple[Spee
 
 
 def _phase(chart: xr.Dataset) -> str:
+    if chart.attrs["mean_force_n"] == 0.0:  # nor is there a worst phase
+        return ""
     if chart.attrs["error_phase"] == "unknown":
-        worst = np.degrees(chart.attrs["run_phase_rad"])
-        return (
-            "No drawing gives the phase of the error against the stiffness wave; of those that were tried "
-            f"{worst:.0f}° is the worst, and the verdict holds for all."
-        )
+        worst, n = f"{np.degrees(chart.attrs['run_phase_rad']):.0f}°", chart.attrs["n_phases"]
+        held = f"of the {n} that were tried {worst} is the worst, and the verdict holds for all {n}, not for every other"
+        tried = held if n > 1 else f"{worst} alone was tried, and the verdict holds for no other"
+        return f"No drawing gives the phase of the error against the stiffness wave; {tried}."
     if chart.attrs["error_phase"] == "none":
         return "No phase had to be chosen: there is no transmission error."
     return "No phase had to be chosen: that of the error is known."

@@ -84,10 +84,11 @@ gearpair.define("chart/verdict", ["chart/data", "chart/numbers"], function (data
 
   function phaseSentence({ phases, chosen, unknown }) {
     if (!unknown) return "No phase had to be chosen: there is no transmission error.";
-    return (
-      "No drawing gives the phase of the error against the stiffness wave; of those that were tried " +
-      `${degrees(phases[chosen])} is the worst, and the verdict holds for all.`
-    );
+    const worst = degrees(phases[chosen]);
+    const n = phases.length;
+    const held = `of the ${n} that were tried ${worst} is the worst, and the verdict holds for all ${n}, not for every other`;
+    const tried = n > 1 ? held : `${worst} alone was tried, and the verdict holds for no other`;
+    return `No drawing gives the phase of the error against the stiffness wave; ${tried}.`;
   }
 
   function quietSentence({ speeds, factorHigh }, iso, together) {
