@@ -100,6 +100,12 @@ def ramp(n: int) -> None:
     gp.design.run_up(drawn(), 5000.0, 13000.0, n / (9000.0 / 60.0 * 28))
 
 
+def tip_in(n: int) -> None:
+    """A drawn pair whose torque turns from the coast flank to the drive flank, followed for n mesh periods."""
+    drive = drawn().at_speed(7000.0)
+    gp.design.load_change(drive, [(0.0, -20.0), (0.005, 120.0)], n / (7000.0 / 60.0 * 28))
+
+
 def shocks(n: int) -> None:
     """The smallest gap in the torque that throws a drawn pair, at n speeds."""
     gp.design.shock_margin(drawn(), np.linspace(7000.0, 9500.0, n), n_starts=4)
@@ -132,6 +138,7 @@ JOBS = {
     "attractors": attractors,
     "changing": changing,
     "ramp": ramp,
+    "tip_in": tip_in,
     "shocks": shocks,
     "boxes": boxes,
     "rig": rig,

@@ -46,7 +46,7 @@ def growth() -> Table:
     ramps, shocks = run_apart("ramp", PERIODS), run_apart("shocks", SHOCKS)
     series, rigs = run_apart("boxes", BOXES), run_apart("rig", (1,))
     many, passed = run_apart("attractors", STARTS_TRIED), run_apart("changing", PERIODS)
-    sounds = run_apart("heard", HEARD)
+    sounds, changes = run_apart("heard", HEARD), run_apart("tip_in", PERIODS)
     rows = [_cost(m, f"diagram up and down, {m.size} values", 2 * m.size, diagrams[0]) for m in diagrams[1:]]
     rows += [_cost(m, f"{m.size} x {m.size} starts", m.size**2, grids[0]) for m in grids[1:]]
     rows += [_cost(m, f"speed and damping, {m.size} motions", m.size, planes[0]) for m in planes[1:]]
@@ -54,6 +54,7 @@ def growth() -> Table:
     rows += [_cost(m, f"attractors of {m.size} starts", m.size, many[0]) for m in many[1:]]
     rows += [_cost(m, f"passage, {m.size} mesh periods", m.size, passed[0]) for m in passed[1:]]
     rows += [_cost(m, f"run-up, {m.size} mesh periods", m.size, ramps[0]) for m in ramps[1:]]
+    rows += [_cost(m, f"tip-in, {m.size} mesh periods", m.size, changes[0]) for m in changes[1:]]
     rows += [_cost(m, f"shock margin, {m.size} speeds", m.size, shocks[0]) for m in shocks[1:]]
     rows += [_cost(m, f"{m.size} gearboxes, 81 speeds", 2 * 81 * m.size, series[0]) for m in series[1:]]
     rows += [_cost(m, "two speeds of a test rig", 1, rigs[0]) for m in rigs[1:]]

@@ -337,7 +337,7 @@ STATED: tuple[tuple[str, str, Decided | Undecided, str], ...] = (
     ("K1", "carried out in the chapter on stiffness", "assumption", ""),
     ("N3", "values taken as printed", "definition", ""),
     ("F14", "holds for any motion: 3 Omega_h T_h = 6 pi", "vacuous", "arithmetic"),
-    ("C5", "that on many starts follows from C3", "advice", ""),
+    ("C5", "that on many starts follows from C3; the rest is computed in the chapter In service", "advice", ""),
 )
 
 
