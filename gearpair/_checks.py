@@ -5,9 +5,10 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from decimal import Decimal
 from functools import cache, wraps
 from inspect import Parameter, signature
+from itertools import chain, repeat
 from numbers import Integral, Real
 from types import SimpleNamespace, UnionType
-from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Any, NamedTuple, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,11 +61,12 @@ def check_array(
 
     Texts, times, truth values, complex numbers and masked ones are no numbers.
     """
+    masked = isinstance(values, np.ma.MaskedArray)
     try:
-        array = np.ma.asanyarray(values) if np.ma.isMaskedArray(values) else np.asarray(values)
+        array = np.ma.asanyarray(values) if masked else np.asarray(values)
     except ValueError:
         raise ValueError(f"{name} must be numbers in rows of one length, got {shown(values)}") from None
-    if np.ma.is_masked(array):
+    if masked and np.ma.is_masked(array):
         raise ValueError(f"{name} must be numbers, got masked ones among them: leave them out")
     if array.dtype.kind == "O" and array.size and all(map(is_number, array.flat)):
         array = array.astype(float)
@@ -74,7 +76,7 @@ def check_array(
     found = np.asarray(array, dtype=float)
     if ndim is not None and (found.ndim != ndim or found.size == 0):
         raise ValueError(f"{name} must be a non-empty sequence of numbers, got shape {found.shape}")
-    if finite and not np.all(np.isfinite(found)):
+    if finite and not np.isfinite(found).all():
         raise ValueError(f"{name} must be finite, got {found[~np.isfinite(found)].flat[0]}")
     if at_least is not None and found.size:
         check_number(name, float(found.min()), at_least=at_least)
@@ -124,7 +126,7 @@ def check_fields(of: Any, **limits: Mapping[str, float]) -> None:
 
 def check_count(name: str, value: Any, *, at_least: int = 1) -> int:
     """Return `value` as an int, or raise a ValueError."""
-    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Integral) or value < at_least:
+    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, (int, Integral)) or value < at_least:
         raise ValueError(f"{name} must be a whole number of at least {at_least}, got {shown(value)}")
     return int(value)
 
@@ -209,19 +211,18 @@ def checked(function: Function) -> Function:
     numbers are the function's own, but nan is none. A dataset without what a function reads in it raises a ValueError.
     """
     parameters = signature(function).parameters
-    places = list(parameters)
     extra = next((name for name, each in parameters.items() if each.kind is Parameter.VAR_POSITIONAL), "")
+    places = list(parameters)[: list(parameters).index(extra) if extra else None]
 
     @wraps(function)
     def called(*given: Any, **named: Any) -> Any:
         rules = _rules(function)
-        for i, value in enumerate(given):
-            name = extra if extra and i >= places.index(extra) else places[i] if i < len(places) else ""
+        by_place = zip(chain(places, repeat(extra)), given, strict=False)
+        for name, value in chain(by_place, named.items()):
             if name in rules:
-                _check_kind(name, value, rules[name])
-        for name, value in named.items():
-            if name in rules:
-                _check_kind(name, value, rules[name])
+                kinds, at_once = rules[name]
+                if type(value) not in at_once or (isinstance(value, float) and value != value):
+                    _check_kind(name, value, kinds)
         try:
             return function(*given, **named)
         except (AttributeError, KeyError) as error:
@@ -237,14 +238,27 @@ class _Dataset:
     """Stands for `xarray.Dataset`, which is not imported before it is used."""
 
 
+class _Rule(NamedTuple):
+    """What a parameter may be."""
+
+    kinds: tuple[Any, ...]
+    at_once: frozenset[Any]  # types of which any value but nan is right, and most values are
+
+
 @cache
-def _rules(function: Callable[..., Any]) -> dict[str, tuple[Any, ...]]:
+def _rules(function: Callable[..., Any]) -> dict[str, _Rule]:
     """What each parameter of a function may be, where that can be told from its annotation."""
     unknown = {"xr": SimpleNamespace(Dataset=_Dataset), "Client": Any, "Group": Any}
     hints = get_type_hints(function, localns=unknown)
     keywords = {name for name, each in signature(function).parameters.items() if each.kind is Parameter.VAR_KEYWORD}
     found = {name: _kinds(hint) for name, hint in hints.items() if name != "return" and name not in keywords}
-    return {name: kinds for name, kinds in found.items() if kinds}
+    return {name: _Rule(kinds, _right_at_once(kinds)) for name, kinds in found.items() if kinds}
+
+
+def _right_at_once(kinds: tuple[Any, ...]) -> frozenset[type]:
+    """The types of which any value but nan is of one of the `kinds`, without a look at members."""
+    numbers = (float, np.float64, int) if float in kinds or int in kinds else ()
+    return frozenset((*kinds, *numbers))
 
 
 def _kinds(hint: Any) -> tuple[Any, ...]:

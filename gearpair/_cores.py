@@ -49,8 +49,8 @@ def on_all_cores(
     """
     blocks = [(first, min(first + block, n)) for first in range(0, n, block)]
     workers = min(config.NUMBA_NUM_THREADS, len(blocks)) if cores else 1
-    hears = current_thread() is main_thread()
-    if workers <= 1 and not (hears and longest * min(block, n) > SHORT):
+    kept_waiting = longest * min(block, n) > SHORT and current_thread() is main_thread()
+    if workers <= 1 and not kept_waiting:
         for first, last in blocks:
             kernel(first, last, *arguments)
             done(last - first)

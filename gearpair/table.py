@@ -8,7 +8,7 @@ from itertools import zip_longest
 from textwrap import wrap
 from typing import Any
 
-from gearpair._checks import shown
+from gearpair._checks import check_count, shown
 from gearpair.quantities import LETTERS
 
 # Plain names of symbols, and how they are set in HTML.
@@ -83,6 +83,7 @@ class Table:
         if widest is None:
             folded = [[[cell] for cell in line] for line in (self.columns, *self.rows)]
         else:
+            widest = check_count("widest", widest)
             rows = [[wrap(cell, widest) or [""] for cell in row] for row in self.rows]
             needed = [[piece for cell in column for piece in cell] for column in zip(*rows, strict=True)]
             head = [

@@ -90,7 +90,10 @@ def inlined_walk(
     reach: Array | None = None,
     details: Details | None = None,
 ) -> tuple[int, float, float]:
-    """`walk` for kernels that ask for one period at a time: a call, two dozen arrays, costs a tenth of a period."""
+    """`walk` for kernels that ask for one period at a time: a call, two dozen arrays, costs a tenth of a period.
+
+    Or three periods, where the processor stalls at what is copied; that hangs on the chance of where it lies.
+    """
     place = Place(x, v, first_region(cells, x, v), 0)
     for period in range(n_periods):
         for turn in range(cells.mesh_periods):
@@ -114,7 +117,8 @@ def walk_mesh_period(
     """Mesh period `turn` of a base period: (status, place)."""
     place = Place(place.x, place.v, place.region, 0)
     if details is None:
-        n = cells.block_width.size // cells.mesh_periods
+        # A division takes a hundredth of a mesh period.
+        n = cells.block_width.size if cells.mesh_periods == 1 else cells.block_width.size // cells.mesh_periods
         for b in range(turn * n, (turn + 1) * n):
             row = cells.block_maps[b, place.region + 1]
             certain, x, v, low, high = follow_row(row, cells.block_width[b], place.x, place.v, place.region)
@@ -184,4 +188,4 @@ def walk_starts(
     """`walk` from rows `first` to `last` of `starts` (n, 2), filling the same of `ends` (n, 2) and `status` (n,)."""
     series = np.empty(TERMS)
     for i in range(first, last):
-        status[i], ends[i, 0], ends[i, 1] = walk(cells, starts[i, 0], starts[i, 1], n_periods, series)
+        status[i], ends[i, 0], ends[i, 1] = inlined_walk(cells, starts[i, 0], starts[i, 1], n_periods, series)

@@ -65,6 +65,7 @@ def impact_codes(x_min: NDArray[np.float64], x_max: NDArray[np.float64]) -> NDAr
         ((x_min < -1.0) & (x_max > 1.0), ImpactState.DOUBLE),
         (x_min <= -1.0, ImpactState.SINGLE_COAST),
     )
-    codes = [-1 if state is None else IMPACT_STATES.index(state) for _, state in cases]
-    otherwise = IMPACT_STATES.index(ImpactState.NEVER_IN_CONTACT)
-    return np.select([case for case, _ in cases], codes, otherwise).astype(np.int8)
+    codes = np.full(np.shape(cases[0][0]), IMPACT_STATES.index(ImpactState.NEVER_IN_CONTACT), np.int8)
+    for case, state in reversed(cases):  # the first that holds is written last
+        codes[case] = -1 if state is None else IMPACT_STATES.index(state)
+    return codes

@@ -146,7 +146,7 @@ class SettleSettings:
 
     def whole_cycles(self) -> Self:
         """These settings with room for a cycle of the longest period."""
-        return replace(self, n_samples=max(self.n_samples, self.max_period))
+        return self if self.n_samples >= self.max_period else replace(self, n_samples=self.max_period)
 
     def share_of_work(self, n: int) -> int:
         """Mesh periods that one of `n` motions may take."""

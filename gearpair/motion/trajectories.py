@@ -100,11 +100,13 @@ class Trajectory:
 def check_starts(x: ArrayLike, v: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Broadcast starts against each other, those of xarray by dimension; a ValueError says what is wrong with them."""
     given: list[Any] = [x, v]
-    if all(hasattr(each, "dims") for each in given):
+    if hasattr(x, "dims") and hasattr(v, "dims"):
         from xarray import broadcast
 
         given = list(broadcast(*given))
     xs, vs = check_array("x", given[0]), check_array("v", given[1])
+    if xs.shape == vs.shape:
+        return xs, vs
     try:
         xs, vs = np.broadcast_arrays(xs, vs)
     except ValueError:
@@ -264,7 +266,7 @@ def passed(osc: Oscillator, x: float, v: float, n_periods: int) -> tuple[float, 
 def raise_if_capped(status: NDArray[np.int64], starts: NDArray[np.float64]) -> None:
     """Raise the RuntimeError that says which of the walks from `starts` (n, 2) was capped, if one was."""
     for code, remedy in CAPPED.items():
-        if np.any(status == code):
+        if (status == code).any():
             i = int(np.argmax(status == code))
             raise RuntimeError(f"start x = {starts[i, 0]}, v = {starts[i, 1]}: {remedy}")
 

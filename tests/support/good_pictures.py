@@ -172,6 +172,7 @@ OBJECTS = {
     "StiffnessWave.truncated": lambda: (OSC.stiffness.truncated, {"n_harmonics": 2}),
     "SweptWave.share_met": lambda: (made("waves").share_met, {"reference": made("waves")}),
     "Table": lambda: (gp.Table, {"columns": ["one"], "rows": [["two"]]}),
+    "Table.text": lambda: (gp.Table(["one"], [["two words"]]).text, {"widest": 4}),
     "TipRelief": lambda: (teeth.TipRelief, {"pinion_um": 20.0, "gear_um": 20.0, "length": 0.4}),
     "TipRelief.deviation_um": lambda: (teeth.TipRelief(20.0, 20.0, 0.4).deviation_um, {"mesh": made("mesh")}),
     "ToothProfile": lambda: (teeth.ToothProfile, {"gear": PINION}),
