@@ -118,7 +118,8 @@ def speed_chart(
 def _error_phase(drive: GearDrive) -> str:
     if drive.phase_is_unknown:
         return "unknown"
-    return "known" if any(each.amplitude for each in (*drive.all_harmonics, *drive.shaft_orders)) else "none"
+    sizes = [amplitude for _, amplitude, *_ in (*drive.all_harmonics, *drive.shaft_orders)]
+    return "known" if any(sizes) else "none"
 
 
 def at_phases(drive: GearDrive, n_phases: int) -> list[GearDrive]:

@@ -115,9 +115,9 @@ def _phase(chart: xr.Dataset) -> str:
         return ""
     if chart.attrs["error_phase"] == "unknown":
         worst, n = f"{np.degrees(chart.attrs['run_phase_rad']):.0f}°", chart.attrs["n_phases"]
-        held = f"of the {n} that were tried {worst} is the worst, and the verdict holds for all {n}, not for every other"
-        tried = held if n > 1 else f"{worst} alone was tried, and the verdict holds for no other"
-        return f"No drawing gives the phase of the error against the stiffness wave; {tried}."
+        many = f"of the {n} that were tried {worst} is the worst; the verdict holds for all {n}, not for every other"
+        one = f"{worst} alone was tried; the verdict holds for no other"
+        return f"No drawing gives the phase of the error against the stiffness wave; {many if n > 1 else one}."
     if chart.attrs["error_phase"] == "none":
         return "No phase had to be chosen: there is no transmission error."
     return "No phase had to be chosen: that of the error is known."

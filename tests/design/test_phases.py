@@ -45,7 +45,7 @@ def test_an_amplitude_alone_has_no_phase_and_harmonics_have():
 @pytest.mark.parametrize(
     ("error", "told"),
     [
-        (4.0, "of the 2 that were tried 180° is the worst, and the verdict holds for all 2, not for every other."),
+        (4.0, "of the 2 that were tried 180° is the worst; the verdict holds for all 2, not for every other."),
         ([(1, 4.0, 0.5)], "No phase had to be chosen: that of the error is known."),
         (0.0, "No phase had to be chosen: there is no transmission error."),
     ],

@@ -86,8 +86,8 @@ gearpair.define("chart/verdict", ["chart/data", "chart/numbers"], function (data
     if (!unknown) return "No phase had to be chosen: there is no transmission error.";
     const worst = degrees(phases[chosen]);
     const n = phases.length;
-    const held = `of the ${n} that were tried ${worst} is the worst, and the verdict holds for all ${n}, not for every other`;
-    const tried = n > 1 ? held : `${worst} alone was tried, and the verdict holds for no other`;
+    const held = `of the ${n} that were tried ${worst} is the worst; the verdict holds for all ${n}, not for every other`;
+    const tried = n > 1 ? held : `${worst} alone was tried; the verdict holds for no other`;
     return `No drawing gives the phase of the error against the stiffness wave; ${tried}.`;
   }
 
