@@ -95,7 +95,7 @@ def verdict(
         quiet=_quiet(chart, iso, together),
         worst=_worst(chart, iso),
         reach=f"The chart has {len(speeds)} speeds from {speeds[0]:.0f} to {speeds[-1]:.0f} rpm; "
-        "between and beyond them nothing was computed.",
+        "between them it may miss a narrow range, and beyond them nothing was computed.",
     )
 
 
@@ -128,12 +128,18 @@ def _quiet(chart: xr.Dataset, iso: IsoDynamicFactor | None, together: tuple[tupl
     free = np.array([any(low <= speed <= high for low, high in together) for speed in speeds]) & np.isfinite(largest)
     if not free.any():
         return ""
-    k_v = np.ones(len(speeds)) if iso is None else np.nan_to_num(iso.k_v, nan=1.0)
-    loud = int(np.where(free, largest / k_v, 0.0).argmax())
-    compared = "" if iso is None else f", {_by_iso(iso.k_v[loud])}"
+    k_v = np.full(len(speeds), np.nan) if iso is None else iso.k_v
+    loud = int(np.where(free, largest / np.nan_to_num(k_v, nan=1.0), 0.0).argmax())  # without ISO, the largest of all
+    if iso is None:
+        compared = ""
+    elif np.isfinite(k_v[loud]):
+        compared = f"; over ISO 6336-1 it is most at {speeds[loud]:.0f} rpm, {largest[loud]:.2f} to {k_v[loud]:.2f}"
+    else:
+        compared = "; ISO 6336-1 defines none for this pair"
+    top = int(np.where(free, largest, 0.0).argmax())
     return (
         f"Together is not quiet: there the dynamic factor, the largest mesh force over the mean, reaches "
-        f"{largest[free].max():.2f}; at {speeds[loud]:.0f} rpm it is {largest[loud]:.2f}{compared}."
+        f"{largest[top]:.2f} at {speeds[top]:.0f} rpm{compared}."
     )
 
 

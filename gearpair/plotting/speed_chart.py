@@ -32,7 +32,8 @@ OTHER_INK = "#8C8577"
 GREY = "#9A9A9A"
 SERVICE = "#3E7A3E"  # speeds that the drive runs at
 BAND = "#E9E4DA"  # over the phases
-LEAP = 0.25  # change from one speed to the next, of the largest factor, that is drawn as a jump
+LEAP = 0.25  # change from one speed to the next, of the largest factor, that is drawn as a jump, located or not
+STEP = 0.1  # likewise, from which on a located jump has an arrow
 LANE = 0.36  # height of a bar of a tornado, whose rows are 1 apart
 STRIP = 0.07  # height of a run's strip of impact states, in shares of the axes
 # What is outlined in a map of loads, from which loss of contact on, and how; and what is dotted.
@@ -46,8 +47,9 @@ CHANGES: Mapping[str, str] = {
     "backlash_um": "backlash",
     "transmission_error_um": "transmission error",
     "damping_ratio": "damping ratio",
-    "addendum": "addendum (contact ratio)",
+    "addendum": "addendum",
 }
+UNITS = {"pinion_torque_nm": "N m", "backlash_um": "µm", "transmission_error_um": "µm", "addendum": "modules"}
 
 
 @checked
@@ -104,9 +106,10 @@ def dynamic_factors(
         _mark_worst(ax, chart)
     for run, style, width in (("up", "-", 1.8), ("down", (0, (2.5, 1.2)), 1.4)):
         values, states = factor.sel(run=run).values, chart.impact_state.sel(run=run).values
+        located = np.isfinite(chart.jump_speed.sel(run=run).values)
         line = look_of(Line2D, look, linestyle=style, linewidth=width)
         ax.plot([], [], **{"color": legible(ax, INK), **line, "label": f"run {run}"})
-        _by_state(ax, speed, values, states, line)
+        _by_state(ax, speed, values, states, located[1:] if run == "up" else located[:-1], line)
     if jumps:
         _mark_jumps(ax, chart)
     over_parameter(ax, "speed", speed, axis_label("dynamic_factor"))
@@ -148,9 +151,11 @@ def _mark_worst(ax: Axes, chart: xr.Dataset) -> None:
         ax.plot(chart.speed.values[other], worst[other], "o", label="worst found from other starts", **looks)
 
 
-def _by_state(ax: Axes, speed: np.ndarray, values: np.ndarray, states: np.ndarray, line: Mapping[str, Any]) -> None:
+def _by_state(
+    ax: Axes, speed: np.ndarray, values: np.ndarray, states: np.ndarray, located: np.ndarray, line: Mapping[str, Any]
+) -> None:
     """A line that is broken where the run jumps, coloured by the impact state at each speed's left end."""
-    jump = np.abs(np.diff(values)) > LEAP * np.nanmax(values)
+    jump = located | (np.abs(np.diff(values)) > LEAP * np.nanmax(values))
     first = 0
     for i in range(1, len(speed) + 1):
         if i < len(speed) and states[i] == states[first] and not jump[i - 1]:
@@ -169,12 +174,14 @@ def _mark_jumps(ax: Axes, chart: xr.Dataset) -> None:
         values, jumps = (chart[name].sel(run=run).values for name in ("dynamic_factor", "jump_speed"))
         for i in np.flatnonzero(np.isfinite(jumps)):
             at, start, end = jumps[i], values[i + before], values[i]
-            if not abs(end - start) > LEAP * np.nanmax(values):
+            if not abs(end - start) > STEP * np.nanmax(values):
                 continue
             arrow: dict[str, Any] = {"arrowstyle": "-|>", "color": grey, "linewidth": 0.9}
             ax.annotate("", (at, end), (at, start), arrowprops=arrow)
             middle = (at, 0.5 * (start + end))
-            note(ax, f"{at:.0f}", middle, (shift, 0), fontsize=8, ha=ha, va="center", color=grey)
+            look: dict[str, Any] = {"fontsize": 8, "ha": ha, "va": "center", "color": grey}
+            halo = withStroke(linewidth=2.0, foreground=ax.get_facecolor())
+            note(ax, f"{at:.0f}", middle, (shift, 0), path_effects=[halo], **look)
 
 
 def _strips(ax: Axes, chart: xr.Dataset) -> None:
@@ -299,6 +306,11 @@ def _borders(inside: np.ndarray, x: np.ndarray, y: np.ndarray) -> list[list[tupl
     return sides
 
 
+def _with_unit(name: str) -> str:
+    told = CHANGES.get(name, name)
+    return f"{told} ({UNITS[name]})" if name in UNITS else told
+
+
 @checked
 def tornado(
     found: xr.Dataset,
@@ -341,7 +353,7 @@ def tornado(
             note(ax, told, (values[k, end], lane), (shift, 0), fontsize=7, va="center_baseline", ha=ha)
     ax.axvline(base, color=legible(ax, "#333333"), linewidth=0.9, zorder=3)
     names = [str(found.change.values[k]) for k in order]
-    ax.set_yticks(range(len(names)), [CHANGES.get(name, name) for name in names])
+    ax.set_yticks(range(len(names)), [_with_unit(name) for name in names])
     ax.set_xlabel(axis_label(OUTCOMES[outcome]))
     ax.margins(x=0.12)
     handles = [Patch(color=colour, label=name) for name, colour in ends.items()]

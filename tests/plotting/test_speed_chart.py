@@ -70,11 +70,11 @@ def test_tooth_loads_in_their_units(chart):
 def test_a_tornado_has_the_strongest_change_on_top():
     found = design.sensitivity(DRIVE, SPEEDS, {"backlash_um": (50.0, 200.0), "damping_ratio": (0.025, 0.1)})
     ax = plotting.tornado(found)
-    assert [label.get_text() for label in ax.get_yticklabels()] == ["backlash", "damping ratio"]
+    assert [label.get_text() for label in ax.get_yticklabels()] == ["backlash (µm)", "damping ratio"]
     ends = sorted(bar.get_x() + bar.get_width() for bar in ax.patches if bar.get_y() > 0.5)
     assert ends == pytest.approx(sorted(found.dynamic_factor.sel(change="damping_ratio").values))
     other = plotting.tornado(found, "time_apart", sort_by="dynamic_factor")
-    assert [label.get_text() for label in other.get_yticklabels()] == ["backlash", "damping ratio"]
+    assert [label.get_text() for label in other.get_yticklabels()] == ["backlash (µm)", "damping ratio"]
 
 
 def test_a_tornado_s_bars_and_numbers_stay_apart_where_both_ends_lie_on_one_side():
@@ -135,3 +135,21 @@ def test_a_time_apart_of_a_rounding_has_no_bar():
     found = design.sensitivity(quiet, SPEEDS[::10], {"damping_ratio": (0.4, 1.0)})
     found.time_apart[:] = 1e-15
     assert {bar.get_width() for bar in plotting.tornado(found, "time_apart").patches} == {0.0}
+
+
+def test_a_small_jump_breaks_its_line_and_has_an_arrow_where_it_is_located(chart):
+    small = chart.copy(deep=True)
+    small.jump_speed[:] = np.nan
+    small.dynamic_factor[:] = np.where(SPEEDS < SPEEDS[-2], 2.0, 2.4)  # a step of a sixth
+    small.impact_state[:] = "none_drive"
+
+    def drawn():
+        ax = plotting.dynamic_factors(small)
+        pieces = [each for each in ax.lines if each.get_label().startswith("_child")]
+        return len(pieces), [text.get_text() for text in ax.texts if text.get_text().isdigit()]
+
+    assert drawn() == (2, [])
+    small.jump_speed.loc[{"run": "up", "speed": SPEEDS[-2]}] = SPEEDS[-2] - 20.0
+    assert drawn() == (3, [f"{SPEEDS[-2] - 20.0:.0f}"])
+    small.jump_speed.loc[{"run": "down", "speed": SPEEDS[-3]}] = SPEEDS[-3] + 20.0
+    assert drawn()[0] == 4

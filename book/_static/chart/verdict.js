@@ -77,7 +77,7 @@ gearpair.define("chart/verdict", ["chart/data", "chart/numbers"], function (data
       phaseSentence(chart),
       quietSentence(chart, iso, together),
       worstSentence(chart, iso),
-      `The chart has ${speeds.length} speeds from ${fixed(speeds[0], 0)} to ${fixed(speeds.at(-1), 0)} rpm; between and beyond them nothing was computed.`,
+      `The chart has ${speeds.length} speeds from ${fixed(speeds[0], 0)} to ${fixed(speeds.at(-1), 0)} rpm; between them it may miss a narrow range, and beyond them nothing was computed.`,
     ];
     return { avoid, together, rule, sentences: sentences.filter(Boolean) };
   }
@@ -95,10 +95,13 @@ gearpair.define("chart/verdict", ["chart/data", "chart/numbers"], function (data
     const free = speeds.map((speed, i) => Number.isFinite(factorHigh[i]) && together.some(([low, high]) => low <= speed && speed <= high));
     if (!free.includes(true)) return "";
     const loud = argmax(speeds.map((_, i) => (free[i] ? factorHigh[i] / (Number.isNaN(iso[i]) ? 1 : iso[i]) : 0)));
-    const reached = Math.max(...factorHigh.filter((_, i) => free[i]));
+    const top = argmax(speeds.map((_, i) => (free[i] ? factorHigh[i] : 0)));
+    const compared = Number.isFinite(iso[loud])
+      ? `over ISO 6336-1 it is most at ${fixed(speeds[loud], 0)} rpm, ${fixed(factorHigh[loud], 2)} to ${fixed(iso[loud], 2)}`
+      : "ISO 6336-1 defines none for this pair";
     return (
-      `Together is not quiet: there the dynamic factor, the largest mesh force over the mean, reaches ${fixed(reached, 2)}; ` +
-      `at ${fixed(speeds[loud], 0)} rpm it is ${fixed(factorHigh[loud], 2)}, ${byIso(iso[loud])}.`
+      "Together is not quiet: there the dynamic factor, the largest mesh force over the mean, reaches " +
+      `${fixed(factorHigh[top], 2)} at ${fixed(speeds[top], 0)} rpm; ${compared}.`
     );
   }
 
