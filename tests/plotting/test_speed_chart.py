@@ -140,7 +140,7 @@ def test_a_time_apart_of_a_rounding_has_no_bar():
 def test_a_small_jump_breaks_its_line_and_has_an_arrow_where_it_is_located(chart):
     small = chart.copy(deep=True)
     small.jump_speed[:] = np.nan
-    small.dynamic_factor[:] = np.where(SPEEDS < SPEEDS[-2], 2.0, 2.4)  # a step of a sixth
+    small.dynamic_factor[:] = np.where(SPEEDS[-2] > SPEEDS, 2.0, 2.4)  # a step of a sixth
     small.impact_state[:] = "none_drive"
 
     def drawn():
