@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
@@ -82,7 +83,7 @@ def add_key(ax: Axes, handles: list[Line2D]) -> None:
     if handles:
         names = [str(handle.get_label()) for handle in handles]
         looks: dict[str, Any] = {"loc": "upper right", "framealpha": 0.9, "edgecolor": "none", "frameon": True}
-        if ax.images:  # a map leaves no room free of data
+        if ax.images or any(isinstance(each, QuadMesh) for each in ax.collections):  # a map leaves no room free of data
             below = ax.transAxes + ScaledTranslation(0.0, BELOW, ax.figure.dpi_scale_trans)
             looks |= {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "bbox_transform": below}
         for n in range(len(handles), 0, -1):
