@@ -61,7 +61,7 @@ def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, legend: bool =
         lowest = min(lowest, float(steepest[-1]))
     ax.set_yscale("log")
     ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    ax.yaxis.set_major_formatter(StrMethodFormatter("{x:.0f}"))
+    ax.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     ax.yaxis.set_minor_formatter(NullFormatter())
     ax.set(xlabel=axis_label("waited"), ylabel=axis_label("survivors"), xlim=(0.0, end))
     ax.set_ylim(max(0.7 * lowest, 1.4 * BELOW), 1.4 * max(survivors[0], 1))
