@@ -25,7 +25,7 @@ PLACES = (
     ),
     (
         "Colab",
-        "Needs a Google account; install the library in the first cell, as the introduction says",
+        "Needs a Google account; run first: %pip install git+https://github.com/{repository}",
         "https://colab.research.google.com/github/{repository}/blob/main/notebooks/{chapter}.ipynb",
     ),
     (
@@ -66,7 +66,12 @@ def buttons(repository: str, chapter: str) -> dict[str, Any]:
         "icon": "fas fa-rocket",
         "tooltip": "Run this chapter elsewhere",
         "buttons": [
-            {"type": "link", "text": name, "tooltip": needs, "url": url.format(repository=repository, chapter=chapter)}
+            {
+                "type": "link",
+                "text": name,
+                "tooltip": needs.format(repository=repository),
+                "url": url.format(repository=repository, chapter=chapter),
+            }
             for name, needs, url in PLACES
         ],
     }

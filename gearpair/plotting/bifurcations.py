@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
@@ -15,7 +16,7 @@ from gearpair.bifurcations.branches import Branch
 from gearpair.bifurcations.curves import BifurcationCurve
 from gearpair.motion.names import periodic
 from gearpair.plotting.paper import legible, look_of, paper
-from gearpair.plotting.style import INK, colour_on, new_axes
+from gearpair.plotting.style import INK, colour_on, fits, new_axes
 from gearpair.quantities import axis_label
 
 MARKERS = {"fold": "^", "flip": "o", "grazing": "D"}
@@ -78,19 +79,23 @@ def branches(
 
 
 def add_key(ax: Axes, handles: list[Line2D]) -> None:
-    """A key inside the axes, beside the legend of motions that may stand above them; below the axes of a map."""
-    if handles:
-        names = [str(handle.get_label()) for handle in handles]
-        looks: dict[str, Any] = {"loc": "upper right", "framealpha": 0.9, "edgecolor": "none", "frameon": True}
-        if ax.images:  # a map leaves no room free of data
-            below = ax.transAxes + ScaledTranslation(0.0, BELOW, ax.figure.dpi_scale_trans)
-            looks |= {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "bbox_transform": below}
+    """A key inside the axes, beside the legend of motions that may be above them; below a map if there is room."""
+    if not handles:
+        return
+    names = [str(handle.get_label()) for handle in handles]
+    places: list[dict[str, Any]] = [{"loc": "upper right"}]
+    if ax.images or any(isinstance(each, QuadMesh) for each in ax.collections):  # a map leaves no room free of data
+        below = ax.transAxes + ScaledTranslation(0.0, BELOW, ax.figure.dpi_scale_trans)
+        places.insert(0, {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "bbox_transform": below})
+    for place in places:
         for n in range(len(handles), 0, -1):
-            key = Legend(ax, handles, names, ncols=n, **looks)
+            key = Legend(ax, handles, names, ncols=n, framealpha=0.9, edgecolor="none", frameon=True, **place)
             if key.get_window_extent().width < ax.bbox.width:
                 break
-        ax.add_artist(key)
-        key.set_clip_on(False)  # so that a layout leaves room for it
+        if fits(key, ax):
+            break
+    ax.add_artist(key)
+    key.set_clip_on(False)  # so that a layout leaves room for it
 
 
 def _runs(stable: np.ndarray, wanted: bool) -> np.ndarray:

@@ -28,7 +28,7 @@ def manifolds(found: Manifolds, ax: Axes | None = None, *, legend: bool = True, 
     ax : Axes, optional
         For example that of a `basins`, to draw over it: its limits and its legend stay.
     legend : bool
-        Whether the curves are named, inside the axes.
+        Whether the curves are named: inside the axes, or below a map.
 
     Examples
     --------

@@ -129,13 +129,13 @@ def add_legend(ax: Axes, handles: Sequence[Artist] | None = None, columns: int =
     others = sorted(range(1, len(handles) + 1), key=lambda n: abs(n - columns))
     for n in (columns, *others):
         legend = ax.legend(handles=handles, ncols=n, **look)
-        if _fits(legend, ax):
+        if fits(legend, ax):
             return legend
     place = {name: look[name] for name in look if name not in ("loc", "bbox_to_anchor", "borderaxespad")}
     return ax.legend(handles=handles, **{**place, "loc": "best", "frameon": True})
 
 
-def _fits(legend: Legend, ax: Axes) -> bool:
+def fits(legend: Legend, ax: Axes) -> bool:
     """Whether a legend is within its figure; within a figure that lays itself out, whether it can be."""
     whole = ax.get_figure(root=True)
     if whole is None:

@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 from matplotlib.typing import ColorType
 
 from gearpair._checks import check_count, check_number, checked
@@ -28,7 +29,7 @@ def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, legend: bool =
 
     Steps for the survivors; dashed, from the end of what is discarded (dotted), the line of the fitted rate in the
     strip of its interval. Without an escape there is no line, and the strip is how fast survivors may fall at most.
-    The legend says what mean life the strip stands for.
+    The legend says what mean life the strip stands for. The scale begins where the survivors or their strip end.
 
     Examples
     --------
@@ -43,7 +44,9 @@ def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, legend: bool =
     steps = look_of(Line2D, look, color=legible(ax, INK))
     colour = steps["color"]
     ax.step(waited, np.maximum(survivors, BELOW), where="post", **steps)
-    ax.axvline(result.attrs["discard"], color=BOUNDARY, linewidth=0.9, linestyle=(0, (1, 1.6)), zorder=-1)
+    dots: dict[str, Any] = {"color": BOUNDARY, "linewidth": 0.9, "linestyle": (0, (1, 1.6)), "zorder": -1}
+    ax.axvline(result.attrs["discard"], label="counted from here on", **dots)
+    lowest = float(survivors[-1])
     estimate = estimate_of(result)
     if np.isfinite(estimate.escape_rate_high):
         since = np.linspace(0.0, n_periods - result.attrs["discard"], 400)
@@ -55,9 +58,13 @@ def survival_curve(result: xr.Dataset, ax: Axes | None = None, *, legend: bool =
             ax.plot(tau, fitted, color=colour, linewidth=0.9, linestyle="--")
         if legend:
             ax.legend(loc="best")
+        lowest = min(lowest, float(steepest[-1]))
     ax.set_yscale("log")
+    ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    ax.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    ax.yaxis.set_minor_formatter(NullFormatter())
     ax.set(xlabel=axis_label("waited"), ylabel=axis_label("survivors"), xlim=(0.0, end))
-    ax.set_ylim(1.4 * BELOW, 1.4 * max(survivors[0], 1))
+    ax.set_ylim(max(0.7 * lowest, 1.4 * BELOW), 1.4 * max(survivors[0], 1))
     return ax
 
 

@@ -37,6 +37,8 @@ def test_over_basins_the_limits_the_labels_and_the_legend_stay(found):
     assert ax.get_legend() is key  # above the axes, and not cut off by them
     (own,) = keys_in(ax)
     assert [text.get_text() for text in own.get_texts()] == ["stable manifold", "unstable manifold", "saddle"]
+    ax.figure.canvas.draw()
+    assert own.get_window_extent().y1 <= ax.xaxis.label.get_window_extent().y0 + 1.0  # and covers no basin
 
 
 def test_without_a_legend_there_is_none(found):

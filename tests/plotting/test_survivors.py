@@ -29,8 +29,8 @@ def test_the_steps_are_the_survivors_and_the_line_falls_with_the_rate():
     at_end = strip[np.isclose(strip[:, 0], 20_000.0), 1]
     for rate in (result.escape_rate_low.item(), result.escape_rate_high.item()):
         assert np.isclose(at_end, result.n_watched.item() * np.exp(-rate * 19_500.0)).any()
-    (text,) = ax.get_legend().get_texts()
-    assert text.get_text() == estimate_of(result).told and " to " in text.get_text()
+    dotted, told = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert dotted == "counted from here on" and told == estimate_of(result).told and " to " in told
     assert result.escape_time.max() < ax.get_xlim()[1] < 20_000.0
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("mesh periods", "starts still on their way")
 
@@ -39,8 +39,22 @@ def test_without_an_escape_there_is_a_bound_and_no_line():
     result = survival(1.219, n_periods=1500)
     ax = plotting.survival_curve(result, colour="#009E73")
     assert len(ax.lines) == 2 and ax.lines[0].get_color() == "#009E73"
-    assert ax.get_legend().get_texts()[0].get_text().startswith("mean life at least 1000 mesh")
+    assert ax.get_legend().get_texts()[1].get_text().startswith("mean life at least 1000 mesh")
     assert plotting.survival_curve(result, legend=False).get_legend() is None
+
+
+def test_the_scale_begins_where_the_survivors_or_their_strip_end():
+    """No room is left empty below the last survivors, and each tick is a plain number of starts."""
+    rng = np.random.default_rng(0)
+    starts = rng.uniform(-2.0, 2.0, 100), rng.uniform(-1.5, 1.5, 100)
+    result = gp.survival(gp.Oscillator(mesh_frequency=1.09), *starts, n_periods=2000)
+    ax = plotting.survival_curve(result)
+    left, lowest = result.survivors.values[-1], ax.collections[0].get_paths()[0].vertices[:, 1].min()
+    assert 1 < lowest < left and ax.get_ylim()[0] == pytest.approx(0.7 * lowest)
+    ax.figure.canvas.draw()
+    bottom, top = ax.get_ylim()
+    shown = [label.get_text() for label in ax.get_yticklabels() if bottom <= label.get_position()[1] <= top]
+    assert len(shown) >= 2 and all(text.isdigit() for text in shown)
 
 
 def test_where_nothing_was_left_to_watch_the_survivors_are_drawn_alone():

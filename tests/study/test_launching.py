@@ -31,7 +31,8 @@ def test_a_published_chapter_opens_its_own_notebook(monkeypatch, ending):
         "https://colab.research.google.com/github/a-lab/gearpair/blob/main/notebooks/impacts.ipynb",
         "https://codespaces.new/a-lab/gearpair",
     ]
-    assert all(button["tooltip"] for button in chapter[0]["buttons"])
+    _binder, colab, _codespaces = tooltips = [button["tooltip"] for button in chapter[0]["buttons"]]
+    assert all(tooltips) and colab.endswith("%pip install git+https://github.com/a-lab/gearpair")
 
 
 def test_a_local_build_has_no_buttons(monkeypatch):
