@@ -210,9 +210,7 @@ def test_up_to_which_speed_no_box_parts_is_told_with_what_that_says_of_a_series(
     high = np.maximum(shares, 1.0 - 0.025 ** (1.0 / 128))  # Clopper and Pearson, none of 128
     columns = {"parting_share": ("speed", shares), "parting_share_high": ("speed", high)}
     boxes = xr.Dataset(columns, {"speed": 1000.0 * np.arange(1, 6), "box": np.arange(128)})
-    helps = SimpleNamespace(helps_most=lambda _: ("damping_ratio", "higher"))
-    words = SimpleNamespace(CHANGES={"damping_ratio": "damping ratio"})
-    assert said in glued("in_service", "service-boxes-words", boxes=boxes, design=helps, plotting=words)["boxes"]
+    assert said in glued("in_service", "service-boxes-words", boxes=boxes)["boxes"]
 
 
 @pytest.mark.parametrize(
@@ -241,7 +239,8 @@ def test_what_is_enough_next_to_a_jump(jumps, phases, said):
     chart = xr.Dataset(
         {"jump_speed": (("run", "speed"), where)}, {"run": ["up", "down"], "speed": 500.0 * np.arange(1, 9)}
     )
-    texts = glued("in_service", "service-margin-words", margin=margin, chart=chart)
+    assert said in glued("in_service", "service-margin-words", margin=margin, chart=chart)["towards"]
     moment = "another" if phases[1] != phases[2] else "the same"
-    assert said in texts["towards"]
-    assert f"from 90% to 10% between 2000 and 3000 rpm, and {moment} moment" in texts["leap"]
+    step = {"margin": margin, "tried": margin.shock_margin.values, "grid": margin.speed.values}
+    told = glued("in_service", "service-margin-leap", **step)["leap"]
+    assert f"from 90% to 10% between 2000 and 3000 rpm, and {moment} moment" in told
