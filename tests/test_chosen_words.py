@@ -176,3 +176,71 @@ def test_what_helps_is_said_as_it_came_out(factors, said, damping):
     design = SimpleNamespace(sensitivity=lambda *_: found)
     texts = glued("speed_chart", "changes-told", design=design, plotting=gp.plotting, drive=None, speeds=np.arange(4))
     assert said in texts["most"] and damping in texts["damped"] and bool(damping) == bool(texts["damped"])
+
+
+@pytest.mark.parametrize(
+    ("counts", "said"),
+    [
+        ((19, 4, 46, 48), "slow is worst: the slowest, of 20 ms, ends in a louder motion at 48 of 48 moments"),
+        ((30, 20, 10, 5), "Here it holds: the slowest"),
+        ((5, 48, 0, 10), "Here it does not: the slowest, of 20 ms, ends in a louder motion at 10 of 48 moments, the"),
+        ((0, 0, 0, 0), "none of them ends in a louder motion"),
+        ((48, 48, 48, 48), "Here it does not"),
+    ],
+)
+def test_whether_a_slow_tip_in_is_gentle_is_counted(counts, said):
+    names = ("0.5", "2", "5", "20")
+    loud = {f"tip-in in {name} ms": np.arange(48) < n for name, n in zip(names, counts, strict=True)}
+    results = {"tip_in_seconds": 0.005, "loud_after": loud, "told": {"moments": "48"}}
+    assert said in glued("in_service", "service-gentler", **results)["gentler"]
+
+
+@pytest.mark.parametrize(
+    ("shares", "said"),
+    [
+        (
+            [0.0, 0.0, 0.25, 1.0, 1.0],
+            "none parts up to 2000 rpm (so of a whole series at most 2.8%, at 95 %), 25% do at",
+        ),
+        ([0.5, 0.0, 0.25, 0.0, 0.0], "some part at the lowest speed, and the most, 50%, at 1000 rpm"),
+        ([0.0, 0.0, 0.0, 0.0, 0.0], "none parts at any speed (so of a whole series at most 2.8%, at 95 %)"),
+    ],
+)
+def test_up_to_which_speed_no_box_parts_is_told_with_what_that_says_of_a_series(shares, said):
+    high = np.maximum(shares, 1.0 - 0.025 ** (1.0 / 128))  # Clopper and Pearson, none of 128
+    columns = {"parting_share": ("speed", shares), "parting_share_high": ("speed", high)}
+    boxes = xr.Dataset(columns, {"speed": 1000.0 * np.arange(1, 6), "box": np.arange(128)})
+    assert said in glued("in_service", "service-boxes-words", boxes=boxes)["boxes"]
+
+
+@pytest.mark.parametrize(
+    ("jumps", "phases", "said"),
+    [
+        (
+            (3500.0, 1500.0),
+            (0.0, 0.0, 0.25, 0.0),
+            "a drop of 10% at 3000 rpm (jump up at 3500); a drop or rise of 5% at",
+        ),
+        ((np.nan, np.nan), (0.0, 0.5, 0.5, 0.0), "Next to no jump"),
+    ],
+)
+def test_what_is_enough_next_to_a_jump(jumps, phases, said):
+    margin = xr.Dataset(
+        {
+            "shock_margin": ("speed", [np.nan, 0.9, 0.1, np.nan]),
+            "dip_back": ("speed", [np.nan, 0.05, 0.3, np.nan]),
+            "surge_back": ("speed", [np.nan, 0.2, np.nan, np.nan]),
+            "shock_phase": ("speed", list(phases)),
+        },
+        {"speed": [1000.0, 2000.0, 3000.0, 4000.0]},
+    )
+    where = np.full((2, 8), np.nan)
+    where[0, 6], where[1, 2] = jumps
+    chart = xr.Dataset(
+        {"jump_speed": (("run", "speed"), where)}, {"run": ["up", "down"], "speed": 500.0 * np.arange(1, 9)}
+    )
+    assert said in glued("in_service", "service-margin-words", margin=margin, chart=chart)["towards"]
+    moment = "another" if phases[1] != phases[2] else "the same"
+    step = {"margin": margin, "tried": margin.shock_margin.values, "grid": margin.speed.values}
+    told = glued("in_service", "service-margin-leap", **step)["leap"]
+    assert f"from 90% to 10% between 2000 and 3000 rpm, and {moment} moment" in told

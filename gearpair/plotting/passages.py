@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
+from matplotlib.colors import ListedColormap, to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
@@ -14,8 +15,10 @@ from scipy.signal import ShortTimeFFT
 from scipy.signal.windows import hann
 
 from gearpair._checks import check_count, checked
+from gearpair.ensembles.planes import attractor_motions
+from gearpair.motion.settling import Status
 from gearpair.plotting.bifurcations import add_key
-from gearpair.plotting.maps import ENDS
+from gearpair.plotting.maps import ENDS, name_colours
 from gearpair.plotting.maps import basins as basins_map
 from gearpair.plotting.paper import legible, look_of, paper
 from gearpair.plotting.style import INK, add_legend, new_axes, note, over_parameter
@@ -24,6 +27,7 @@ from gearpair.quantities import axis_label
 FALLING = "#D55E00"
 STEADY = "#9A9A9A"
 PATH = "#111111"
+PALE = ("#A9CCE3", "#F5CBA7", "#A9DFBF", "#D7BDE2")  # of the basins behind a path
 TOGETHER = 4  # mesh periods of which a passage shows the largest factor
 WINDOWS = 40  # of a short-time spectrum, as many as fit side by side
 LEAST_PERIODS = 6  # of the mesh in a window
@@ -77,7 +81,7 @@ def passage_factor(run: xr.Dataset, chart: xr.Dataset | None = None, ax: Axes | 
 def order_map(run: xr.Dataset, ax: Axes | None = None, *, n_orders: int = 4, **look: Any) -> Axes:
     """Which frequencies the mesh force has while the speed changes, by short-time spectra, and the mesh orders.
 
-    One image over the speed, or over time where the speed does not change steadily, in dB below its largest line;
+    One image over the speed, or over time where the speed does not change steadily, in dB relative to its largest line;
     and as many thin lines as orders, multiples of the mesh frequency.
 
     Parameters
@@ -110,8 +114,8 @@ def order_map(run: xr.Dataset, ax: Axes | None = None, *, n_orders: int = 4, **l
         ax.plot(run[over].values, order * mesh / 1000.0, **line)
         at = float(run[over].values[last]), order * float(mesh[last]) / 1000.0
         note(ax, f"{order}", at, (3, 0), fontsize=8, va="center", color=legible(ax, FALLING))
-    over_parameter(ax, over, place, "frequency (kHz)", ylim=(0.0, frequency[-1] / 1000.0))
-    ax.figure.colorbar(drawn, ax=ax, label="dB below the largest", pad=0.05)
+    over_parameter(ax, over, run[over].values, "frequency (kHz)", ylim=(0.0, frequency[-1] / 1000.0))
+    ax.figure.colorbar(drawn, ax=ax, label="dB, relative to the largest", pad=0.05)
     return ax
 
 
@@ -140,7 +144,7 @@ def passage_path(run: xr.Dataset, basins: xr.Dataset | None = None, ax: Axes | N
     if basins is None:
         ax.set(xlabel=axis_label("start_x"), ylabel=axis_label("start_v"))
     else:
-        basins_map(basins, ax)
+        _basins_apart(basins, ax)
     over = ax.has_data()
     limits = {"xlim": ax.get_xlim(), "ylim": ax.get_ylim()} if over else {}
     ink, halo = legible(ax, PATH), [withStroke(linewidth=2.2, foreground=paper(ax))]
@@ -206,10 +210,24 @@ def shock_margins(margin: xr.Dataset, ax: Axes | None = None, **look: Any) -> Ax
     return ax
 
 
+def _basins_apart(basins: xr.Dataset, ax: Axes) -> None:
+    """The map of the basins, in pale colours that tell motions of one period apart where there are few of them."""
+    motions = attractor_motions(basins)
+    if len(motions) > len(PALE) or (basins.status.values == Status.TRANSIENT).any():
+        basins_map(basins, ax)
+        return
+    basins_map(basins, ax, legend=False, cmap=ListedColormap(["white", *PALE[: len(motions)]]))
+    names = [str(motion) for motion in motions]
+    numbered = [
+        f"{name}, {names[: i + 1].count(name)}" if names.count(name) > 1 else name for i, name in enumerate(names)
+    ]
+    name_colours(ax, dict(zip(numbered, map(to_rgb, PALE), strict=False)), columns=2)
+
+
 def short_time_levels(
     run: xr.Dataset, n_orders: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Times (s), frequencies (Hz) and levels (dB below the largest) of short-time spectra of a passage's mesh force."""
+    """Times (s), frequencies (Hz) and levels (dB re the largest) of short-time spectra of a passage's mesh force."""
     if "sample_force" not in run:
         raise ValueError("run must be a passage that was made with samples_per_period")
     mesh, per_period = _mesh_hz(run), run.sizes["sample"]
@@ -223,7 +241,8 @@ def short_time_levels(
     transform = ShortTimeFFT(window, max(len(window) // 8, 1), rate, scale_to="magnitude")
     found = np.abs(transform.stft_detrend(np.interp(even, sampled, force), "constant", padding="even"))
     times = transform.t(len(even))
-    inside, shown = (times >= 0.0) & (times <= whole), transform.f <= (n_orders + 0.5) * mesh.max()
+    edge = 0.5 * seconds if whole > 2.0 * seconds else 0.0  # a window beyond an end of the run sees a jolt there
+    inside, shown = (times >= edge) & (times <= whole - edge), transform.f <= (n_orders + 0.5) * mesh.max()
     found = found[shown][:, inside]
     level = 20.0 * np.log10(np.maximum(found, 1e-12 * found.max()) / (found.max() or 1.0))
     return times[inside], transform.f[shown], level

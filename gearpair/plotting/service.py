@@ -62,7 +62,8 @@ def rattling_share(found: xr.Dataset, ax: Axes | None = None, **look: Any) -> Ax
 def fold_curves(found: Identification, ax: Axes | None = None, **look: Any) -> Axes:
     """Damping ratios and errors with a fold where a rig jumped: a line for each jump, which meet at the answer.
 
-    Solid for the run up, broken for the run down; the cross is the interval of the answer.
+    Solid for the run up, broken for the run down; the dot is the answer, a cross through it its interval, which may be
+    smaller than the dot.
 
     Examples
     --------

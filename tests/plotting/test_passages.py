@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from matplotlib.collections import QuadMesh
+from matplotlib.legend import Legend
 from scipy.ndimage import maximum_filter1d
 
 import gearpair as gp
@@ -102,3 +103,23 @@ def test_without_a_second_motion_the_picture_says_so():
     alone = margins(n_motions=[1] * 4, shock_margin=none, dip_back=none, surge_back=none)
     ax = plotting.shock_margins(alone)
     assert [text.get_text() for text in ax.texts] == ["one motion at each of these speeds"]
+
+
+def test_the_spectra_begin_and_end_where_a_whole_window_has_been_seen(run):
+    """So the jolt with which a ramp begins is no streak of the map."""
+    times, _, _ = short_time_levels(run, 3)
+    whole = float(run.sample_time.values.ravel()[-1])
+    half = 0.5 * whole / 40
+    assert times[0] >= half and times[-1] <= whole - half and times[-1] - times[0] > whole - 3.0 * half
+
+
+def test_two_motions_of_one_name_have_two_colours_and_numbers():
+    osc = gp.Oscillator()
+    plane = gp.basins(osc, [-2.0, 1.0], [0.0, 0.5])
+    plane.attractor_period[:], plane.attractor_impact_state[:] = 1, "single_drive"
+    ax = plotting.passage_path(gp.passage([osc] * 3, 1.0, 0.0), plane)
+    (key,) = [each for each in ax.get_children() if isinstance(each, Legend) and each.get_patches()]
+    assert [text.get_text() for text in key.get_texts()] == ["period 1, single-sided, 1", "period 1, single-sided, 2"]
+    (image,) = [each for each in ax.collections if isinstance(each, QuadMesh)]
+    drawn = {tuple(colour) for colour in image.to_rgba(image.get_array()).reshape(-1, 4).tolist()}
+    assert drawn == {patch.get_facecolor() for patch in key.get_patches()} and len(drawn) == 2
