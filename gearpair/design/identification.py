@@ -121,8 +121,8 @@ class Identification:
 @checked
 def identify(
     drive: GearDrive,
-    jump_up_rpm: float | Sequence[float],
-    jump_down_rpm: float | Sequence[float],
+    jump_up_rpm: ArrayLike,
+    jump_down_rpm: ArrayLike,
     *,
     torques_nm: Sequence[float] | None = None,
     free_phase: bool = False,

@@ -102,7 +102,7 @@ def load_change(
     ...     transmission_error_um=[(1, 5.0, 0.0)], damping_ratio=0.08, pinion_speed_rpm=2000.0)
     >>> tip_in = load_change(drive, [(0.0, -20.0), (0.005, 120.0)], 0.05)
     >>> str(tip_in.impact_state.values[0]), str(tip_in.impact_state.values[-1])
-    ('none_coast', 'none_drive')
+    ('single_coast', 'none_drive')
     """
     return schedule(
         drive,
