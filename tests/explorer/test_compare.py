@@ -120,6 +120,7 @@ def test_a_slider_stops_a_run_and_the_end_does(explorer):
     press(page, "run-up")
     page.wait_for_function(f"{RUN}.way === 0")
     assert text(page, "run-note") == "At mesh frequency 3.000: the end of the slider."
+    page.wait_for_function(SETTLED)  # a run begins from the motion that is shown
     press(page, "run-up")
     assert text(page, "run-note") == "The mesh frequency is at its highest."
     press(page, "run-down")
