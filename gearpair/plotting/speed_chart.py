@@ -178,6 +178,8 @@ def _mark_jumps(ax: Axes, chart: xr.Dataset) -> None:
                 continue
             arrow: dict[str, Any] = {"arrowstyle": "-|>", "color": grey, "linewidth": 0.9}
             ax.annotate("", (at, end), (at, start), arrowprops=arrow)
+            if run == "up" and abs(end - start) < LEAP * np.nanmax(values):
+                continue  # the branch that a small jump up leads to lies where its number would stand
             middle = (at, 0.5 * (start + end))
             look: dict[str, Any] = {"fontsize": 8, "ha": ha, "va": "center", "color": grey}
             halo = withStroke(linewidth=2.0, foreground=ax.get_facecolor())

@@ -146,10 +146,11 @@ def test_a_small_jump_breaks_its_line_and_has_an_arrow_where_it_is_located(chart
     def drawn():
         ax = plotting.dynamic_factors(small)
         pieces = [each for each in ax.lines if each.get_label().startswith("_child")]
-        return len(pieces), [text.get_text() for text in ax.texts if text.get_text().isdigit()]
+        arrows = [text for text in ax.texts if getattr(text, "arrow_patch", None) is not None]
+        return len(pieces), len(arrows), [text.get_text() for text in ax.texts if text.get_text().isdigit()]
 
-    assert drawn() == (2, [])
+    assert drawn() == (2, 0, [])
     small.jump_speed.loc[{"run": "up", "speed": SPEEDS[-2]}] = SPEEDS[-2] - 20.0
-    assert drawn() == (3, [f"{SPEEDS[-2] - 20.0:.0f}"])
+    assert drawn() == (3, 1, [])
     small.jump_speed.loc[{"run": "down", "speed": SPEEDS[-3]}] = SPEEDS[-3] + 20.0
-    assert drawn()[0] == 4
+    assert drawn() == (4, 2, [f"{SPEEDS[-3] + 20.0:.0f}"])
