@@ -124,10 +124,12 @@ def check_fields(of: Any, **limits: Mapping[str, float]) -> None:
             object.__setattr__(of, name, check_number(name, getattr(of, name), **limit))
 
 
-def check_count(name: str, value: Any, *, at_least: int = 1) -> int:
+def check_count(name: str, value: Any, *, at_least: int = 1, at_most: int | None = None) -> int:
     """Return `value` as an int, or raise a ValueError."""
     if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, (int, Integral)) or value < at_least:
         raise ValueError(f"{name} must be a whole number of at least {at_least}, got {shown(value)}")
+    if at_most is not None and value > at_most:
+        raise ValueError(f"{name} must be a whole number of at most {at_most}, got {shown(value)}")
     return int(value)
 
 

@@ -7,7 +7,7 @@ from .cells import Cells
 from .newton import derivative
 from .observe import mean_damping, measure
 from .reach import HIGHEST, LOWEST, begin_reach
-from .stable_orbits import smallest_point, spectral_radius
+from .stable_orbits import RETURNED, smallest_point, spectral_radius
 from .states import PERIODIC, Course, Orbit, Scratch, Settled
 from .walk import walk
 
@@ -37,12 +37,17 @@ def describe_orbit(cells: Cells, orbit: Orbit, work: Scratch, out: Settled, i: i
 
 @kernel
 def describe_floating(cells: Cells, course: Course, work: Scratch, out: Settled, i: int) -> None:
-    """Fill row `i` of `out` with what a motion is that floats: neutral to a shift of X, damped otherwise."""
+    """Fill row `i` of `out` with what a motion is that floats: neutral to a shift of X, damped otherwise.
+
+    One at rest at a flank, which it touches by a rounding, is described by its neighbour that does not touch.
+    """
     fill_exponents(0.0, cells.flight_damping, 0.0, out.exponents[i])
     begin_reach(work.reach, course.x)
     walk(cells, course.x, course.v, 1, work.series, None, work.reach)
-    out.extremes[i, 0], out.extremes[i, 1] = work.reach[LOWEST], work.reach[HIGHEST]
-    describe_span(cells, course.x, course.v, 1, work, out, i)
+    free = 1.0 - RETURNED
+    over = max(work.reach[HIGHEST] - free, 0.0) - max(-free - work.reach[LOWEST], 0.0)
+    out.extremes[i, 0], out.extremes[i, 1] = work.reach[LOWEST] - over, work.reach[HIGHEST] - over
+    describe_span(cells, course.x - over, course.v, 1, work, out, i)
 
 
 @kernel

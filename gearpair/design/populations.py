@@ -126,7 +126,7 @@ def population(
     import xarray as xr  # here, so that importing gearpair stays quick
 
     speeds, seed = check_speeds(speeds_rpm), check_count("seed", seed, at_least=0)
-    n = int(check_number("n", check_count("n", n), at_most=MOST_BOXES))
+    n = check_count("n", n, at_most=MOST_BOXES)
     confidence = check_number("confidence", confidence, above=0.0, below=1.0)
     if drive.pinion_torque_nm == 0.0 and "pinion_torque_nm" not in spread:
         raise ValueError("drive must have a torque that factors are relative to, got pinion_torque_nm = 0.0")

@@ -22,9 +22,8 @@ if TYPE_CHECKING:
 
 RATE = 44_100  # samples a second
 OVER = 4  # as many times finer is the force sampled, before what the rate cannot hold is filtered out
-TAPS = (
-    128 * OVER
-)  # of the filter before that: from 46 % of the rate on it falls, to less than a thousandth at half of it
+# Of the filter before that, which falls from 46 % of the rate on, to less than a thousandth at half of it.
+TAPS = 128 * OVER
 FASTEST = 192_000  # samples a second
 FEWEST = 16  # samples of a mesh period, of a passage
 FADE = 0.06  # seconds, at both ends
@@ -129,7 +128,7 @@ def sound(
     from scipy.interpolate import CubicSpline  # here, so that importing gearpair stays quick
     from scipy.signal import firwin, resample_poly
 
-    rate = int(check_number("rate", check_count("rate", rate, at_least=1000), at_most=FASTEST))
+    rate = check_count("rate", rate, at_least=1000, at_most=FASTEST)
     if isinstance(motion, SteadyState):
         seconds = 2.0 if seconds is None else check_number("seconds", seconds, above=2.0 * FADE, at_most=60.0)
         time, force = _force_of(drive, motion, seconds, rate * OVER)

@@ -128,19 +128,18 @@ def _quiet(chart: xr.Dataset, iso: IsoDynamicFactor | None, together: tuple[tupl
     free = np.array([any(low <= speed <= high for low, high in together) for speed in speeds]) & np.isfinite(largest)
     if not free.any():
         return ""
-    k_v = np.full(len(speeds), np.nan) if iso is None else iso.k_v
-    loud = int(np.where(free, largest / np.nan_to_num(k_v, nan=1.0), 0.0).argmax())  # without ISO, the largest of all
-    if iso is None:
-        compared = ""
-    elif np.isfinite(k_v[loud]):
-        compared = f"; over ISO 6336-1 it is most at {speeds[loud]:.0f} rpm, {largest[loud]:.2f} to {k_v[loud]:.2f}"
-    else:
-        compared = "; ISO 6336-1 defines none for this pair"
     top = int(np.where(free, largest, 0.0).argmax())
-    return (
+    told = (
         f"Together is not quiet: there the dynamic factor, the largest mesh force over the mean, reaches "
-        f"{largest[top]:.2f} at {speeds[top]:.0f} rpm{compared}."
+        f"{largest[top]:.2f} at {speeds[top]:.0f} rpm"
     )
+    if iso is None:
+        return f"{told}."
+    loud = int(np.where(free, largest / np.nan_to_num(iso.k_v, nan=1.0), 0.0).argmax())
+    if not np.isfinite(iso.k_v[loud]):
+        return f"{told}; ISO 6336-1 defines none for this pair."
+    over = f"{largest[loud]:.2f} to {iso.k_v[loud]:.2f}"
+    return f"{told}; over ISO 6336-1 it is most at {speeds[loud]:.0f} rpm, {over}."
 
 
 def _worst(chart: xr.Dataset, iso: IsoDynamicFactor | None) -> str:

@@ -52,12 +52,6 @@ def number(name: str, value: Any, **limits: float) -> float:
     return check_number(name, value, **limits)
 
 
-def count(name: str, value: Any, at_least: int = 1, at_most: int | None = None) -> int:
-    """A whole number within limits."""
-    found = check_count(name, value, at_least=at_least)
-    return found if at_most is None else int(check_number(name, found, at_least=at_least, at_most=at_most))
-
-
 def choice(name: str, value: Any, choices: tuple[str, ...]) -> str:
     """One of a few words."""
     check_choice(name, value, choices)
@@ -110,8 +104,8 @@ def _of_each(rows: Iterable[tuple[Any, ...]]) -> list[Entry]:
 
 GROUPS: dict[str, list[Entry]] = {
     "The teeth": [
-        Entry("pinion_teeth", "teeth of the pinion, which drives", partial(count, at_least=3), example=28),
-        Entry("gear_teeth", "teeth of the gear", partial(count, at_least=3), example=57),
+        Entry("pinion_teeth", "teeth of the pinion, which drives", partial(check_count, at_least=3), example=28),
+        Entry("gear_teeth", "teeth of the gear", partial(check_count, at_least=3), example=57),
         Entry("module_mm", "module", above, "mm", example=3.0),
         Entry("face_width_mm", "face width of both gears", above, "mm", example=25.0),
         *_of_each([("face_width_mm", "the {}'s own face width, where it is another", above, "mm")]),
@@ -160,7 +154,7 @@ GROUPS: dict[str, list[Entry]] = {
             ]
         ),
         Entry("coupling", "how the teeth share a body", partial(choice, choices=get_args(Coupling)), "", "ring"),
-        Entry("n_levels", "levels of the staircase that stands for the stiffness", count, "", 16),
+        Entry("n_levels", "levels of the staircase that stands for the stiffness", check_count, "", 16),
     ],
     "The backlash: as a whole, or as tooth thickness allowances of both gears": [
         Entry("backlash_um", "whole backlash, as the next line says", above, "um", example=100.0),
@@ -204,7 +198,7 @@ GROUPS: dict[str, list[Entry]] = {
         Entry(
             "iso_grade",
             "ISO 1328-1:2013 flank tolerance class of both gears",
-            partial(count, at_least=GRADES[0], at_most=GRADES[1]),
+            partial(check_count, at_least=GRADES[0], at_most=GRADES[1]),
         ),
         Entry(
             "shaft_orders",
@@ -233,15 +227,15 @@ GROUPS: dict[str, list[Entry]] = {
         Entry("lowest_rpm", "where the chart begins; around the mesh resonance, unless given", above, "rpm"),
         Entry("highest_rpm", "where it ends", above, "rpm"),
         Entry("pinion_speed_rpm", "one speed, for the library", above, "rpm"),
-        Entry("n_speeds", "speeds on the chart", partial(count, at_least=2), "", 121),
+        Entry("n_speeds", "speeds on the chart", partial(check_count, at_least=2), "", 121),
         Entry(
             "n_starts",
             "starts tried at each speed and phase, beside runs up and down",
-            partial(count, at_least=0),
+            partial(check_count, at_least=0),
             "",
             12,
         ),
-        Entry("n_phases", "phases tried of an error whose phase is unknown", count, "", 8),
+        Entry("n_phases", "phases tried of an error whose phase is unknown", check_count, "", 8),
     ],
     "Where the gear idles: all three, and the torque may be left out": [
         Entry("idle_order", "swings of the pinion per turn, an engine order", above),

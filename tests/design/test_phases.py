@@ -55,6 +55,11 @@ def test_a_verdict_tells_an_unknown_phase_from_a_known_one_and_from_no_error(err
     assert told in verdict(few).phase
 
 
+def test_without_a_torque_no_phase_is_the_worst():
+    floating = speed_chart(DRIVE.replace(pinion_torque_nm=0.0), [3000.0, 3100.0], n_phases=2, **RUNS_ALONE)
+    assert verdict(floating).phase == "" and verdict(floating).worst == "Without a torque there is no dynamic factor."
+
+
 def test_an_error_moved_along_the_mesh_period_keeps_its_shape():
     told = DRIVE.replace(transmission_error_um=[(1, 4.0, 0.5), (3, 1.0, 0.25)]).at_speed(3000.0)
     here, moved = told.oscillator(), told.at_phase(1.7).oscillator()

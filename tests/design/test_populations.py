@@ -171,7 +171,7 @@ def test_bad_spreads_get_a_sentence(spread, sentence) -> None:
 def test_other_bad_input_gets_a_sentence() -> None:
     with pytest.raises(ValueError, match="n must be a whole number of at least 1, got 0"):
         population(DRIVE, SPREAD, SPEEDS, n=0)
-    with pytest.raises(ValueError, match="n must be a finite number at most 1e[+]07, got 1000000000000.0"):
+    with pytest.raises(ValueError, match="n must be a whole number of at most 10000000, got 1000000000000"):
         population(DRIVE, SPREAD, SPEEDS, n=10**12)
     with pytest.raises(ValueError, match="drive must have a torque"):
         population(DRIVE.replace(pinion_torque_nm=0.0), SPREAD, SPEEDS)

@@ -81,7 +81,7 @@ def test_bad_input() -> None:
         sound(DRIVE, run_up(DRIVE, 6000.0, 9000.0, 0.05, samples_per_period=64))
     with pytest.raises(ValueError, match="motion must have at least 16 samples_per_period, got 8"):
         sound(DRIVE, run_up(DRIVE, 6000.0, 9000.0, 0.5, samples_per_period=8))
-    with pytest.raises(ValueError, match="rate must be a finite number at most 192000, got 1000000000.0"):
+    with pytest.raises(ValueError, match="rate must be a whole number of at most 192000, got 1000000000"):
         sound(DRIVE, STATE, rate=10**9)
 
 

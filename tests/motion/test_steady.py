@@ -135,6 +135,20 @@ def test_statuses_are_strings_with_a_remedy_each():
     assert all(len(status.remedy) > 20 for status in Status)
 
 
+@pytest.mark.parametrize("beyond", [0.0, 1e-15, 1e-13, 1e-11, 1e-9, 1e-7, 1e-5])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_without_a_mean_force_no_motion_comes_to_strike_one_flank_alone(beyond, side):
+    """Over a cycle the forces on the teeth have the mean of the load, 0: one that pushes off a flank ends beside it."""
+    osc = gp.Oscillator(mean_force=0.0, error_amplitude=0.08, damping_ratio=0.05, mesh_frequency=0.7)
+    free = gp.steady_state(osc, 0.0, 0.0)
+    x, v = free.points[0]
+    found = gp.steady_state(osc, x + side * (1.0 + beyond) - (free.x_max if side > 0.0 else free.x_min), v)
+    assert found.status == "floating" and found.impact_state == "never_in_contact"
+    assert (found.x_max if side > 0.0 else -found.x_min) == pytest.approx(1.0, abs=3e-8)
+    assert found.x_max - found.x_min == pytest.approx(free.x_max - free.x_min, abs=1e-9)
+    assert gp.motion.impact_measures(found).flight_share == 1.0
+
+
 def test_chaos_is_told_by_its_exponent_not_by_its_samples():
     """Two starts on the chaotic motion at Omega = 1.219: different samples, one exponent within its error."""
     osc = gp.Oscillator(mesh_frequency=1.219)

@@ -186,7 +186,7 @@ BAD = {
     f"{LEAST}{REST}relief_length: 0.3": "relief_length goes with a pinion_relief_um or gear_relief_um above 0",
     f"{LEAST}{REST}pinion_relief_um: 5\nrelief_length: 9": "length must be a finite number above 0 and at most",
     f"{LEAST}{REST}idle_order: 2": "idle_order, idle_swing_deg, idle_drag_nm go together, got idle_order alone",
-    f"{LEAST}{REST}iso_grade: 14": "iso_grade must be a finite number at least 1 and at most 11, got 14.0",
+    f"{LEAST}{REST}iso_grade: 14": "iso_grade must be a whole number of at most 11, got 14",
     f"{LEAST}{REST}transmission_error_csv: dte.csv": "give transmission_error_um or transmission_error_csv, not both",
     f"{LEAST}{REST.replace('4', '[[0, 4, 0]]')}": "transmission_error_um[0] order must be a whole number of at least 1",
     f"{LEAST}backlash_um: 9\npinion_torque_nm: 1": "one of transmission_error_um, transmission_error_csv, iso_grade is",
