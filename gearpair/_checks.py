@@ -128,7 +128,7 @@ def check_count(name: str, value: Any, *, at_least: int = 1, at_most: int | None
     """Return `value` as an int, or raise a ValueError."""
     if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, (int, Integral)) or value < at_least:
         raise ValueError(f"{name} must be a whole number of at least {at_least}, got {shown(value)}")
-    if at_most is not None and value > at_most:
+    if at_most is not None and int(value) > at_most:
         raise ValueError(f"{name} must be a whole number of at most {at_most}, got {shown(value)}")
     return int(value)
 

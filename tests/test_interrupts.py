@@ -109,6 +109,33 @@ def test_a_process_that_is_interrupted_ends(tmp_path):
     assert err.rstrip().endswith("KeyboardInterrupt") and process.returncode != 0
 
 
+def test_an_interrupt_while_a_first_call_loads_its_kernels_breaks_none_after_it():
+    """Numba hands out what it knows by generators: one that an interrupt ends would fail in every later call."""
+    program = """
+import os, signal
+from numba.core import utils
+hand_out, pressed = utils.stream_list, []
+
+def hand_out_pressed(known):
+    for part in hand_out(known):
+        if not pressed:
+            pressed.append(True)
+            os.kill(os.getpid(), signal.SIGINT)
+            for _ in range(10**5):  # an interrupt is raised between two steps of the program
+                pass
+        yield part
+
+import gearpair as gp
+utils.stream_list = hand_out_pressed
+try:
+    gp.steady_state(gp.Oscillator())
+except KeyboardInterrupt:
+    print("KeyboardInterrupt", gp.steady_state(gp.Oscillator()).period)
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=ROOT)
+    assert done.stdout == "KeyboardInterrupt 2\n", done.stderr
+
+
 @pytest.mark.slow
 def test_a_notebook_s_kernel_is_interrupted_and_goes_on():
     """Jupyter's stop button is a SIGINT to the kernel; its next cell runs."""

@@ -3,8 +3,9 @@
 import os
 import warnings
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from hashlib import sha256
+from math import inf
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -12,6 +13,8 @@ import numpy as np
 from numba import njit
 from numba.core.options import DefaultOptions
 from numpy.typing import NDArray
+
+from gearpair._cores import aside
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 Array = NDArray[np.float64]
@@ -58,6 +61,7 @@ def compiled_once(function: Function, options: dict[str, Any]) -> Function:
         return function
     try:
         _name_cache_after_sources(compiled)
+        _make_ready_aside(compiled)
     except (AttributeError, ImportError, TypeError):
         _say_uncached()
         return njit(function, **options)
@@ -73,6 +77,16 @@ def _name_cache_after_sources(compiled: Any) -> None:
         raise TypeError("numba keeps its cache in another way")
     name = f"{cached._impl.filename_base}-{SOURCES}"
     cached._cache_file = IndexDataCacheFile(cached._cache_path, name, SOURCES)
+
+
+def _make_ready_aside(compiled: Any) -> None:
+    """Load or compile in a thread of its own, which Ctrl-C does not end: numba left half-way would fail ever after."""
+    make_ready = compiled._compile_for_args
+
+    def made_ready(*arguments: Any, **named: Any) -> Any:
+        return aside(partial(make_ready, **named), *arguments, periods=inf)
+
+    compiled._compile_for_args = made_ready
 
 
 @cache
