@@ -3,18 +3,17 @@
 import os
 import warnings
 from collections.abc import Callable
-from functools import cache, partial
+from concurrent.futures import Future
+from functools import cache
 from hashlib import sha256
-from math import inf
 from pathlib import Path
+from threading import Thread, current_thread, main_thread
 from typing import Any, TypeVar
 
 import numpy as np
 from numba import njit
 from numba.core.options import DefaultOptions
 from numpy.typing import NDArray
-
-from gearpair._cores import aside
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 Array = NDArray[np.float64]
@@ -84,7 +83,18 @@ def _make_ready_aside(compiled: Any) -> None:
     make_ready = compiled._compile_for_args
 
     def made_ready(*arguments: Any, **named: Any) -> Any:
-        return aside(partial(make_ready, **named), *arguments, periods=inf)
+        if current_thread() is not main_thread():
+            return make_ready(*arguments, **named)
+        made: Future[Any] = Future()
+
+        def make() -> None:
+            try:
+                made.set_result(make_ready(*arguments, **named))
+            except BaseException as error:
+                made.set_exception(error)
+
+        Thread(target=make, daemon=True).start()
+        return made.result()
 
     compiled._compile_for_args = made_ready
 
