@@ -246,11 +246,14 @@ def test_a_chapter_takes_a_drive_from_its_file(tmp_path):
         gp.SpurPair(20, 31), pinion_torque_nm=45.0, backlash_um=80.0, transmission_error_um=2.0, damping_ratio=0.06
     )
     drive.to_file(tmp_path / "pair.yml")
+    with (tmp_path / "pair.yml").open("a") as file:
+        file.write("service_rpm: [1000, 2000]\n")
     chapter = BOOK.chapter("in_service")
     few = [("n_speeds", "21"), ("n_starts", "0"), ("ramp_seconds", "0.2")]
     values = chapter.parse([("drive", str(tmp_path / "pair.yml")), *few])
     execute(chapter, tmp_path / "out.ipynb", values, progress=False)
     text = stored_text(tmp_path / "out.ipynb")
+    assert "In service, from 1000 to 2000 rpm" in text
     assert "'45'" in text and "120" not in re.findall(r"'(\d+)'", text)
 
 
@@ -260,16 +263,17 @@ def test_the_speed_chart_takes_all_of_a_drives_file(tmp_path):
     (tmp_path / "pair.yml").write_text(
         "pinion_teeth: 16\ngear_teeth: 24\nmodule_mm: 4.5\nface_width_mm: 20\npinion_shift: 0.8532\n"
         "gear_shift: -0.5\nbacklash_um: 150\niso_grade: 5\ntransmission_error_um: [[1, 3.0, 0.4]]\n"
-        "pinion_torque_nm: -302\nlowest_rpm: 500\nhighest_rpm: 4000\npinion_relief_um: 8\nrelief_length: 0.3\n"
+        "pinion_torque_nm: -302\nhighest_rpm: 4000\nservice_rpm: [500, 3000]\npinion_relief_um: 8\nrelief_length: 0.3\n"
+        "n_speeds: 9\nn_starts: 0\n"
     )
     chapter, file = BOOK.chapter("speed_chart"), read_drive_file(tmp_path / "pair.yml")
-    values = chapter.parse([("drive", str(file.path)), ("n_speeds", "9"), ("n_starts", "0")])
-    execute(chapter, tmp_path / "out.ipynb", values, progress=False)
+    execute(chapter, tmp_path / "out.ipynb", chapter.parse([("drive", str(file.path))]), progress=False)
     text = stored_text(tmp_path / "out.ipynb")
     speeds, drive = np.linspace(500.0, 4000.0, 9), file.made(gp.GearDrive)
     chart = gp.design.speed_chart(drive, speeds, n_starts=0)
-    told = gp.design.verdict(chart, gp.design.iso_dynamic_factor(drive, speeds, **file.iso_deviations))
-    assert told.worst in text and told.quiet in text and told.reach in text
+    iso = gp.design.iso_dynamic_factor(drive, speeds, **file.iso_deviations)
+    told = gp.design.verdict(chart, iso, (500.0, 3000.0))
+    assert all(sentence in text for sentence in (told.service, told.worst, told.quiet, told.reach))
     assert "'No phase had to be chosen" in text and "as it is" in text and not re.search(r"\bnan\b", text)
 
 

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from gearpair.design import found
+from gearpair.design.charts import BEYOND, FIRST, LAST
 from gearpair.design.speed_ranges import NARROWEST
 from gearpair.drive_file import ENTRIES
 from gearpair.motion.names import IMPACT_NAMES
 from gearpair.motion.settling import CHART
-from gearpair.study.drive_answer import BEYOND, FIRST, LAST
 from gearpair.teeth import iso6336
 from gearpair.teeth.spurpair import BACKLASHES
 

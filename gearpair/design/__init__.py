@@ -1,6 +1,6 @@
 """A real drive over its speeds and loads: chart and map, what changes them, the standard's factor, idle rattle."""
 
-from gearpair.design.charts import speed_chart
+from gearpair.design.charts import chart_speeds, speed_chart
 from gearpair.design.dynamic_factor import IsoDynamicFactor, iso_dynamic_factor
 from gearpair.design.identification import Identification, identify
 from gearpair.design.idle import IdleRattle, idle_oscillator, idle_rattle
@@ -27,6 +27,7 @@ __all__ = [
     "Sound",
     "SpeedRange",
     "Verdict",
+    "chart_speeds",
     "duty_cycle",
     "find_jumps",
     "helps_most",

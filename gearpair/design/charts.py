@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearpair._checks import check_array, check_count, check_number, checked
+from gearpair._checks import check_array, check_count, check_number, check_reach, checked
 from gearpair.design.found import KEPT, LOSSES, Found, find_motions, force_of, largest
 from gearpair.design.jumps import Jump, find_jumps
 from gearpair.design.linear import linear_response
@@ -20,6 +20,61 @@ from gearpair.quantities import attributes
 
 if TYPE_CHECKING:
     import xarray as xr
+
+# Of the mesh resonance: where a chart begins and ends that nothing else bounds; and how far beyond the service.
+FIRST, LAST, BEYOND = 0.15, 1.35, 1.1
+
+
+@checked
+def chart_speeds(
+    drive: GearDrive,
+    n_speeds: int = 121,
+    *,
+    lowest_rpm: float | None = None,
+    highest_rpm: float | None = None,
+    service_rpm: Sequence[float] | None = None,
+) -> NDArray[np.float64]:
+    """The speeds that a chart of a drive is for: as given, or around the mesh resonance and over the service.
+
+    Parameters
+    ----------
+    drive : GearDrive
+        With or without a speed of its own.
+    n_speeds : int
+        How many, evenly spread.
+    lowest_rpm, highest_rpm : float, optional
+        Of the pinion, in rpm.
+    service_rpm : sequence of float, optional
+        The lowest and the highest speed that the drive runs at, which an end that is not given leaves inside.
+
+    Returns
+    -------
+    ndarray, shape (n_speeds,)
+        Speeds of the pinion, in rpm, rising.
+
+    Raises
+    ------
+    ValueError
+        Where the chart would not begin below its end.
+
+    Examples
+    --------
+    >>> from gearpair import SpurPair
+    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0, damping_ratio=0.05)
+    >>> (chart_speeds(drive, 3) / drive.resonance_rpm).round(2)
+    array([0.15, 0.75, 1.35])
+    """
+    resonance = drive.resonance_rpm
+    service = (np.inf, 0.0) if service_rpm is None else check_reach("service_rpm", service_rpm)
+    low = None if lowest_rpm is None else check_number("lowest_rpm", lowest_rpm, above=0.0)
+    high = None if highest_rpm is None else check_number("highest_rpm", highest_rpm, above=0.0)
+    if high is None:
+        high = max(LAST * resonance, BEYOND * max(service[1], low or 0.0))
+    if low is None:
+        low = min(FIRST * resonance, service[0], 0.5 * high)
+    if not low < high:
+        raise ValueError(f"the chart would begin at {low:g} and end at {high:g} rpm: give lowest_rpm or highest_rpm")
+    return np.linspace(low, high, check_count("n_speeds", n_speeds, at_least=2))
 
 
 @checked

@@ -14,12 +14,14 @@ from gearpair.design import (
     IdleRattle,
     IsoDynamicFactor,
     Verdict,
+    chart_speeds,
     idle_rattle,
     iso_dynamic_factor,
     speed_chart,
     speed_range_table,
     verdict,
 )
+from gearpair.design.charts import BEYOND
 from gearpair.drive import GearDrive
 from gearpair.drive_file import DriveFile, read_drive_file
 from gearpair.study.errors import StudyError
@@ -27,9 +29,8 @@ from gearpair.study.errors import StudyError
 if TYPE_CHECKING:
     import xarray as xr
 
-# Of the mesh resonance: where a chart begins and ends that nothing else bounds; and how far beyond the service.
-FIRST, LAST, BEYOND = 0.15, 1.35, 1.1
 IDLE_FIRST, IDLE_LAST = 0.5, 2.5  # of the speed from which an idle gear rattles
+SPEEDS = ("n_speeds", "lowest_rpm", "highest_rpm", "service_rpm")
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,7 @@ def answer(path: Path, *, progress: bool) -> Answer:
     except ValueError as error:
         raise StudyError(str(error)) from None
     try:
-        speeds = chart_speeds(file, drive)
+        speeds = chart_speeds(drive, **{name: file.value(name) for name in SPEEDS})
         loaded = []
         for torque in file.torques_nm:
             if progress:
@@ -112,20 +113,6 @@ def _loaded(file: DriveFile, drive: GearDrive, speeds: NDArray[np.float64], prog
     deviations = file.iso_deviations
     iso = iso_dynamic_factor(drive, speeds, **deviations) if deviations else None
     return Loaded(drive, chart, iso, verdict(chart, iso, file.value("service_rpm")))
-
-
-def chart_speeds(file: DriveFile, drive: GearDrive) -> NDArray[np.float64]:
-    """The speeds of the chart: as given, or around the mesh resonance and over the service."""
-    low, high = file.value("lowest_rpm"), file.value("highest_rpm")
-    service = file.value("service_rpm") or (np.inf, 0.0)
-    resonance = drive.resonance_rpm
-    if high is None:
-        high = max(LAST * resonance, BEYOND * max(service[1], low or 0.0))
-    if low is None:
-        low = min(FIRST * resonance, service[0], 0.5 * high)
-    if not low < high:
-        raise ValueError(f"the chart would begin at {low:g} and end at {high:g} rpm: give lowest_rpm or highest_rpm")
-    return np.linspace(low, high, file.value("n_speeds"))
 
 
 def onset_rpm(drive: GearDrive, given: dict[str, Any]) -> float:

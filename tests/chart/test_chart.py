@@ -8,7 +8,6 @@ import pytest
 from gearpair import GearDrive, SpurPair, design
 from gearpair.drive_file import read_drive_file
 from gearpair.parameters import check_parameters
-from gearpair.study.drive_answer import chart_speeds
 from gearpair.teeth import GearBlank
 from tests.support.engines import CHART, run_in_chart
 from tools import chart_data
@@ -167,7 +166,8 @@ def test_pair_yml_brings_the_drive_back(change, tmp_path):
     drive = file.made(GearDrive)
     assert drive == drive_of(state)
     assert file.iso_deviations == {name: state[name] for name in ("base_pitch_um", "profile_um")}
-    close(made["speeds"], chart_speeds(file, drive), 1e-9)
+    speeds = {name: file.value(name) for name in ("n_speeds", "lowest_rpm", "highest_rpm")}
+    close(made["speeds"], design.chart_speeds(drive, **speeds), 1e-9)
     assert [file.value(name) for name in ("n_speeds", "n_starts", "n_phases")] == [121, 12, 8]
 
 

@@ -6,6 +6,7 @@ from scipy.integrate import solve_ivp
 
 import gearpair as gp
 from gearpair.design import (
+    chart_speeds,
     idle_oscillator,
     idle_rattle,
     iso_dynamic_factor,
@@ -354,3 +355,26 @@ def test_the_idle_oscillator_is_the_gear_behind_a_swinging_pinion():
 def test_bad_input_gets_a_sentence(call, sentence):
     with pytest.raises(ValueError, match=sentence):
         call()
+
+
+@pytest.mark.parametrize(
+    ("given", "ends"),
+    [
+        ({}, (0.15, 1.35)),
+        ({"lowest_rpm": 2.0}, (2.0, 2.2)),
+        ({"highest_rpm": 0.2}, (0.1, 0.2)),
+        ({"service_rpm": (0.1, 0.9)}, (0.1, 1.35)),
+        ({"service_rpm": (0.4, 1.5)}, (0.15, 1.65)),
+        ({"service_rpm": (0.4, 1.5), "lowest_rpm": 0.3, "highest_rpm": 0.8}, (0.3, 0.8)),
+    ],
+)
+def test_a_chart_reaches_around_the_resonance_and_over_the_service(given, ends):
+    """All in parts of the resonance speed."""
+    resonance = DRIVE.resonance_rpm
+    told = {name: np.multiply(value, resonance) for name, value in given.items()}
+    np.testing.assert_allclose(chart_speeds(DRIVE, 5, **told) / resonance, np.linspace(*ends, 5), rtol=1e-12)
+
+
+def test_a_chart_that_would_end_before_it_begins_is_refused():
+    with pytest.raises(ValueError, match="begin at 3000 and end at 2000 rpm: give lowest_rpm or highest_rpm"):
+        chart_speeds(DRIVE, lowest_rpm=3000.0, highest_rpm=2000.0)

@@ -148,6 +148,7 @@ CALLS = {
     },
     "design": {
         "Player": lambda: {"heard": made("heard"), "caption": "one", "told": "two"},
+        "chart_speeds": lambda: {"drive": made("drive"), "n_speeds": 3, "service_rpm": (1000.0, 2000.0)},
         "duty_cycle": lambda: {"found": made("loads"), "points": [(60.0, 3000.0, 1.0)]},
         "helps_most": lambda: {"found": made("boxes")},
         "find_jumps": lambda: {"up": made("up"), "down": made("up")},
