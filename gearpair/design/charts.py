@@ -60,7 +60,8 @@ def chart_speeds(
     Examples
     --------
     >>> from gearpair import SpurPair
-    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0, damping_ratio=0.05)
+    >>> drive = GearDrive.from_pair(SpurPair(), pinion_torque_nm=100.0, backlash_um=80.0,
+    ...     transmission_error_um=4.0, damping_ratio=0.05)
     >>> (chart_speeds(drive, 3) / drive.resonance_rpm).round(2)
     array([0.15, 0.75, 1.35])
     """
