@@ -52,11 +52,6 @@ def chart_speeds(
     ndarray, shape (n_speeds,)
         Speeds of the pinion, in rpm, rising.
 
-    Raises
-    ------
-    ValueError
-        Where the chart would not begin below its end.
-
     Examples
     --------
     >>> from gearpair import SpurPair
@@ -66,7 +61,10 @@ def chart_speeds(
     array([0.15, 0.75, 1.35])
     """
     resonance = drive.resonance_rpm
-    service = (np.inf, 0.0) if service_rpm is None else check_reach("service_rpm", service_rpm)
+    service = (np.inf, 0.0)
+    if service_rpm is not None:
+        service = check_reach("service_rpm", service_rpm)
+        check_number("service_rpm[0]", service[0], above=0.0)
     low = None if lowest_rpm is None else check_number("lowest_rpm", lowest_rpm, above=0.0)
     high = None if highest_rpm is None else check_number("highest_rpm", highest_rpm, above=0.0)
     if high is None:
@@ -74,7 +72,7 @@ def chart_speeds(
     if low is None:
         low = min(FIRST * resonance, service[0], 0.5 * high)
     if not low < high:
-        raise ValueError(f"the chart would begin at {low:g} and end at {high:g} rpm: give lowest_rpm or highest_rpm")
+        raise ValueError(f"lowest_rpm must be below highest_rpm, got {low:g} and {high:g}")
     return np.linspace(low, high, check_count("n_speeds", n_speeds, at_least=2))
 
 

@@ -375,6 +375,13 @@ def test_a_chart_reaches_around_the_resonance_and_over_the_service(given, ends):
     np.testing.assert_allclose(chart_speeds(DRIVE, 5, **told) / resonance, np.linspace(*ends, 5), rtol=1e-12)
 
 
-def test_a_chart_that_would_end_before_it_begins_is_refused():
-    with pytest.raises(ValueError, match="begin at 3000 and end at 2000 rpm: give lowest_rpm or highest_rpm"):
-        chart_speeds(DRIVE, lowest_rpm=3000.0, highest_rpm=2000.0)
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"lowest_rpm": 3000.0, "highest_rpm": 2000.0}, "lowest_rpm must be below highest_rpm, got 3000 and 2000"),
+        ({"service_rpm": (-1.0, 2000.0)}, r"service_rpm\[0\] must be a finite number above 0, got -1.0"),
+    ],
+)
+def test_a_chart_of_no_speeds_is_refused(given, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        chart_speeds(DRIVE, **given)
