@@ -71,6 +71,14 @@ for line in sys.stdin:
 )
 
 
+def a_second_here():
+    """A second; on a machine that is busy with something else, as much longer as work takes there."""
+    begun, worked = time.perf_counter(), time.thread_time()
+    while time.thread_time() - worked < 0.1:
+        pass
+    return (time.perf_counter() - begun) / 0.1
+
+
 @pytest.fixture(scope="module")
 def child():
     """A process that makes the calls that it is told."""
@@ -86,18 +94,14 @@ def child():
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CALLS)
 def test_a_signal_ends_the_call_within_a_second(child, name):
-    """Once in three times, for a machine may be busy with something else."""
-
-    def seconds():
-        print(CALLS[name], file=child.stdin, flush=True)
-        assert child.stdout.readline() == "begun\n"
-        time.sleep(0.6)
-        begun = time.perf_counter()
-        child.send_signal(signal.SIGINT)
-        assert child.stdout.readline() == "KeyboardInterrupt\n"
-        return time.perf_counter() - begun
-
-    assert any(seconds() < 1.0 for _ in range(3))
+    print(CALLS[name], file=child.stdin, flush=True)
+    assert child.stdout.readline() == "begun\n"
+    time.sleep(0.6)
+    begun = time.perf_counter()
+    child.send_signal(signal.SIGINT)
+    assert child.stdout.readline() == "KeyboardInterrupt\n"
+    waited = time.perf_counter() - begun
+    assert waited < a_second_here()
 
 
 @pytest.mark.slow
@@ -114,6 +118,7 @@ def test_a_process_that_is_interrupted_ends(tmp_path):
     assert err.rstrip().endswith("KeyboardInterrupt") and process.returncode != 0
 
 
+@pytest.mark.slow
 def test_an_interrupt_while_a_first_call_loads_its_kernels_breaks_none_after_it():
     """Numba hands out what it knows by generators: one that an interrupt ends would fail in every later call."""
     program = """
@@ -148,23 +153,19 @@ def test_a_notebook_s_kernel_is_interrupted_and_goes_on():
     manager, client = manager_of.start_new_kernel(cwd=str(ROOT))
     try:
         client.execute_interactive(SETTING, timeout=120)
+        stopped, heard = [], []
+
+        def stop():
+            stopped.append(time.time())
+            manager.interrupt_kernel()
+
+        def hear(message):
+            heard.append(message["content"].get("text", ""))
+
+        threading.Timer(1.0, stop).start()
         cell = f"try:\n    {CALLS['basin_stability']}\nexcept KeyboardInterrupt:\n    print(time.time())"
-
-        def seconds():
-            stopped, heard = [], []
-
-            def stop():
-                stopped.append(time.time())
-                manager.interrupt_kernel()
-
-            def hear(message):
-                heard.append(message["content"].get("text", ""))
-
-            threading.Timer(1.0, stop).start()
-            client.execute_interactive(cell, timeout=60, output_hook=hear)
-            return float("".join(heard)) - stopped[0]
-
-        assert any(seconds() < 1.0 for _ in range(3))
+        client.execute_interactive(cell, timeout=60, output_hook=hear)
+        assert float("".join(heard)) - stopped[0] < a_second_here()
         assert client.execute_interactive("gp.steady_state(gp.Oscillator())", timeout=60)["content"]["status"] == "ok"
     finally:
         client.stop_channels()

@@ -51,7 +51,14 @@ def inlined_kernel(function: Function) -> Function:
 
 def compiled_once(function: Function, options: dict[str, Any]) -> Function:
     """Compile `function` at its first call, or load what an earlier process compiled from the same sources."""
-    options = OPTIONS | options
+    compiled = _to_be_compiled(function, OPTIONS | options)
+    if compiled is not function:
+        _make_ready_aside(compiled)
+    return compiled
+
+
+def _to_be_compiled(function: Function, options: dict[str, Any]) -> Function:
+    """What compiles `function` when it is called, with a cache where there can be one."""
     try:
         compiled = njit(function, cache=True, **options)
     except RuntimeError:  # nowhere to write a cache
@@ -60,7 +67,6 @@ def compiled_once(function: Function, options: dict[str, Any]) -> Function:
         return function
     try:
         _name_cache_after_sources(compiled)
-        _make_ready_aside(compiled)
     except (AttributeError, ImportError, TypeError):
         _say_uncached()
         return njit(function, **options)
@@ -79,8 +85,13 @@ def _name_cache_after_sources(compiled: Any) -> None:
 
 
 def _make_ready_aside(compiled: Any) -> None:
-    """Load or compile in a thread of its own, which Ctrl-C does not end: numba left half-way would fail ever after."""
-    make_ready = compiled._compile_for_args
+    """Load or compile in a thread of its own, which Ctrl-C does not end: numba left half-way would fail ever after.
+
+    `gearpair._cores.aside` does the like for calls; this room imports nothing of the others.
+    """
+    make_ready = getattr(compiled, "_compile_for_args", None)  # a private part of numba
+    if make_ready is None:
+        return
 
     def made_ready(*arguments: Any, **named: Any) -> Any:
         if current_thread() is not main_thread():

@@ -233,7 +233,7 @@ def test_on_a_telephone_the_name_stays_in_sight_and_targets_are_large(explorer):
     page.wait_for_function("innerWidth <= 360")
     slider = page.locator("#gp-b")
     slider.scroll_into_view_if_needed()
-    # What stands where is read at one moment: texts that arrive meanwhile move what is below them.
+    # Both ends of a distance are read at one moment: texts that arrive meanwhile move what is below them.
     name = page.evaluate("document.querySelector('.gp-name').getBoundingClientRect().toJSON()")
     assert name["top"] >= -1
     assert name["bottom"] < 120

@@ -47,6 +47,13 @@ def edit(path, old, new):
     path.write_text(text.replace(old, new))
 
 
+def without_a_place(flow):
+    """Variables with which no cache can be made for the copy in `flow`."""
+    (flow / "__pycache__").write_text("")
+    nowhere = str(flow / "closed_form.py" / "cache")
+    return {"HOME": nowhere, "XDG_CACHE_HOME": nowhere, "PYTHONDONTWRITEBYTECODE": "1"}
+
+
 def test_an_edited_callee_in_another_file_is_seen_and_an_unchanged_one_is_not_compiled_again(copied):
     flow, run = copied
     assert run() == (11, 0)  # 2 pi / 0.6 widths of a cell
@@ -61,9 +68,7 @@ def test_an_edited_callee_in_another_file_is_seen_and_an_unchanged_one_is_not_co
 def test_without_a_place_for_a_cache_the_kernels_run_all_the_same(copied):
     """Neither the package's directory nor the user's can be made: both paths lead through a file."""
     flow, run = copied
-    (flow / "__pycache__").write_text("")
-    nowhere = str(flow / "closed_form.py" / "cache")
-    places = {"HOME": nowhere, "XDG_CACHE_HOME": nowhere, "PYTHONDONTWRITEBYTECODE": "1"}
+    places = without_a_place(flow)
     assert run(**places) == (11, 0)
     assert run(**places) == (11, 0)
 
@@ -110,3 +115,19 @@ def test_a_second_process_compiles_nothing():
     check = "assert not walk.walk_starts.stats.cache_misses and not settle.settle_lanes.stats.cache_misses"
     subprocess.run([sys.executable, "-c", work], check=True)
     assert subprocess.run([sys.executable, "-c", work + check]).returncode == 0
+
+
+@pytest.mark.parametrize("cached", [True, False])
+def test_kernels_are_made_ready_in_a_thread_that_ctrl_c_does_not_end(copied, cached):
+    flow, run = copied
+    watched = """
+import sys, threading
+make_ready = Dispatcher.compile
+def told(self, signature):
+    print("in the main thread" if threading.current_thread() is threading.main_thread() else "aside", file=sys.stderr)
+    return make_ready(self, signature)
+Dispatcher.compile = told
+"""
+    count, _hits, stderr = run(PRELUDE + watched, **({} if cached else without_a_place(flow)))
+    assert count == 11
+    assert {*stderr.split("\n")} - {""} == {"aside"}
