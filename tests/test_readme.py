@@ -6,13 +6,14 @@ import pytest
 
 from gearpair.study.book import Book
 from tests.support import ROOT
+from tools.check_wheel import library_example
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.slow
 def test_the_library_example_runs(capsys):
-    (example,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+    example = library_example()  # as `make check-wheel` runs it
     assert len([line for line in example.splitlines() if line]) == 7
     exec(compile(example, "README.md", "exec"), {})
     assert capsys.readouterr().out == "5065 to 15000 rpm: up to 7.0 times the mean force\n"
