@@ -7,7 +7,8 @@ import pytest
 import xarray as xr
 
 import gearpair as gp
-from tests.support.notebooks import glued
+from gearpair.drive_file import read_drive_file
+from tests.support.notebooks import glued, run_cell
 
 
 @pytest.mark.parametrize(
@@ -244,3 +245,41 @@ def test_what_is_enough_next_to_a_jump(jumps, phases, said):
     step = {"margin": margin, "tried": margin.shock_margin.values, "grid": margin.speed.values}
     told = glued("in_service", "service-margin-leap", **step)["leap"]
     assert f"from 90% to 10% between 2000 and 3000 rpm, and {moment} moment" in told
+
+
+@pytest.mark.parametrize(
+    ("service", "motions", "margins", "said"),
+    [
+        (None, (1, 1, 1), (), ""),
+        ((100, 300), (1, 1, 2), (np.nan, np.nan, 0.2), "from 100 to 300 rpm, a drop by 20% is enough, at 300 rpm"),
+        (
+            (100, 200),
+            (1, 1, 2),
+            (np.nan, np.nan, 0.2),
+            "from 100 to 200 rpm, one motion alone was found at every speed tr",
+        ),
+        ((100, 300), (1, 2, 1), (np.nan,) * 3, "but no dip that was tried ends the quietest"),
+        ((110, 120), (2, 2, 2), (0.3, 0.2, 0.1), "from 110 to 120 rpm, no speed was tried"),
+        ((50, 300), (2, 2, 2), (0.3, 0.1, 0.2), "a drop by 10% is enough, at 200 rpm; not all of that was tried"),
+    ],
+)
+def test_which_blow_is_enough_at_the_speeds_of_service(service, motions, margins, said):
+    over = {"n_motions": ("speed", list(motions)), "shock_margin": ("speed", list(margins) or [np.nan] * 3)}
+    given = {"margin": xr.Dataset(over, {"speed": [100.0, 200.0, 300.0]}), "low": 100.0, "high": 300.0}
+    texts = glued("in_service", "service-range", service_rpm=service, found={"price": "It rises"}, **given)
+    assert texts["price"] == "It rises" if service is None else said in texts["price"]
+
+
+def test_a_file_s_counts_are_those_of_the_speed_chart(tmp_path):
+    """What it does not say stays as the parameters have it."""
+    path = tmp_path / "pair.yml"
+    gp.GearDrive.from_pair(
+        gp.SpurPair(), pinion_torque_nm=90.0, backlash_um=80.0, transmission_error_um=2.0, damping_ratio=0.05
+    ).to_file(path)
+    with path.open("a") as file:
+        file.write("n_phases: 3\nn_speeds: 15\n")
+    own = {"lowest_rpm": None, "highest_rpm": None, "base_pitch_um": 8.0, "profile_um": 8.0}
+    given = own | {"read_drive_file": read_drive_file, "n_starts": 5, "n_speeds": 161}
+    names = run_cell("speed_chart", "cell-03-file", drive=str(path), **given)
+    assert names["counts"] == {"n_starts": 5, "n_phases": 3}
+    assert (names["n_speeds"], names["service_rpm"]) == (15, None)

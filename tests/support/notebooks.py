@@ -1,6 +1,7 @@
 """Small chapters to run, and to break."""
 
 from pathlib import Path
+from typing import Any
 
 import nbformat
 import numpy as np
@@ -22,11 +23,17 @@ def write_notebook(path: Path, *code: str, parameters: str = PARAMETERS, tags: t
     return path
 
 
-def glued(chapter: str, cell: str, **names) -> dict[str, str]:
-    """What one cell of a chapter glues into the text, run by itself on the results that it is given by `names`."""
+def run_cell(chapter: str, cell: str, **names) -> dict[str, Any]:
+    """The names after one cell of a chapter, run by itself on the results that it is given by `names`."""
     notebook = nbformat.read(ROOT / "notebooks" / f"{chapter}.ipynb", as_version=4)
     (source,) = (each.source for each in notebook.cells if each.get("id") == cell)
+    known = {"np": np, "gp": gp, **names}
+    exec(source, known)
+    return known
+
+
+def glued(chapter: str, cell: str, **names) -> dict[str, str]:
+    """What one cell of a chapter glues into the text; it is run as by `run_cell`."""
     texts: dict[str, str] = {}
-    known = {"np": np, "gp": gp, "glue": lambda name, text, display: texts.update({name: text})}
-    exec(source, {**known, **names})
+    run_cell(chapter, cell, glue=lambda name, text, display: texts.update({name: text}), **names)
     return texts
