@@ -253,7 +253,7 @@ def test_a_chapter_takes_a_drive_from_its_file(tmp_path):
     values = chapter.parse([("drive", str(tmp_path / "pair.yml")), *few])
     execute(chapter, tmp_path / "out.ipynb", values, progress=False)
     text = stored_text(tmp_path / "out.ipynb")
-    assert "In service, from 1000 to 2000 rpm" in text
+    assert "; in service, from 1000 to 2000 rpm" in text
     assert "'45'" in text and "120" not in re.findall(r"'(\d+)'", text)
 
 
